@@ -1,0 +1,50 @@
+#pragma once
+// Plain comma-separated tables with a header row: every CSV this project writes or imports. No quoting.
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slamot/core/data/Stamp.h"
+
+namespace slamot {
+
+/// Reads row by row; columns are found by name. Errors name file, line and column.
+class CsvReader {
+   public:
+    /// Throws LogError when the file cannot be opened or has no header.
+    explicit CsvReader(const std::string& file);
+
+    bool has(const std::string& column) const;
+    /// Index for the accessors below; throws LogError when absent.
+    int column(const std::string& name) const;
+    const std::vector<std::string>& header() const { return header_; }
+
+    /// Goes to the next row; false at the end. A row with another number of fields than the header is an error,
+    /// except a last line without a newline, which a crashed writer may have left: it ends the table.
+    bool next();
+
+    bool empty(int column) const;
+    std::string text(int column) const;
+    /// NaN for an empty field; "nan", "inf" and "-inf" are numbers.
+    double number(int column) const;
+    std::int64_t integer(int column) const;
+    /// Decimal seconds, exact to a tick.
+    Stamp stamp(int column) const;
+    [[noreturn]] void fail(int column, const std::string& expected) const;
+
+   private:
+    std::string file_;
+    std::ifstream in_;
+    std::vector<std::string> header_, fields_;
+    std::int64_t line_ = 0;
+};
+
+/// The shortest text that reads back as the same number, appended to `line` after a comma (none at the start of a
+/// line).
+void appendField(std::string& line, double value);
+void appendField(std::string& line, std::int64_t value);
+void appendField(std::string& line, std::string_view text);
+void appendField(std::string& line, Stamp stamp);
+
+}  // namespace slamot

@@ -1,0 +1,45 @@
+#pragma once
+// Looking through a log that may be broken or hostile, in a child process with limited memory: MRPT's readers can
+// be made to allocate without bound or to crash by a flipped bit.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slamot/core/data/Stamp.h"
+#include "slamot/rawlog/RawlogReader.h"
+
+namespace slamot {
+
+/// What one sensor (class and label) has in a log.
+struct SensorSummary {
+    std::string class_name, label;
+    std::int64_t count = 0;
+    Stamp first, last;
+    std::int64_t detections = 0, identified = 0;  ///< range-bearing only
+    bool has_velocities = false;                  ///< odometry only
+    bool has_noise = true;                        ///< range-bearing: every reading claims a noise
+};
+
+struct LogSummary {
+    LogFormat format = LogFormat::observations;
+    LogEnd end = LogEnd::clean;
+    std::string end_message;
+    std::int64_t objects = 0;
+    std::vector<SensorSummary> sensors;
+    DropTable drops;
+};
+
+/// Reads the whole log in this process. Throws LogError.
+LogSummary summarise(const std::string& file, const LogParameters& parameters);
+
+std::string toJson(const LogSummary& summary);
+LogSummary logSummaryFromJson(const std::string& json);
+
+/// Runs `program check-log FILE` (which prints toJson(summarise(FILE))) with `memory_limit` bytes of address space
+/// and takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call before any thread is
+/// started. Throws LogError when the child says the file cannot be used at all.
+LogSummary summariseInChild(const std::string& program, const std::string& file, const LogParameters& parameters,
+                            std::uint64_t memory_limit = 2ull << 30);
+
+}  // namespace slamot

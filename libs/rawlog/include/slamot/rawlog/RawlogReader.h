@@ -1,0 +1,76 @@
+#pragma once
+// Streams either of MRPT's log formats in a stable order.
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "slamot/core/config/Parameters.h"
+#include "slamot/core/data/Odometry.h"
+#include "slamot/core/data/Stamp.h"
+
+namespace slamot {
+
+/// Section `[log]`: how a log is read.
+struct LogParameters {
+    double reorder_window = 1.0;     ///< [s]
+    double step = 0.1;               ///< [s] per frame, for action-frame logs without usable stamps
+};
+ParameterTable describe(LogParameters& parameters);
+
+/// What was not used, by sensor label and reason. Reasons are short words: late, unknown-class, ...
+class DropTable {
+   public:
+    void add(const std::string& sensor, const std::string& reason, std::int64_t count = 1);
+    const std::map<std::pair<std::string, std::string>, std::int64_t>& rows() const { return rows_; }
+    std::int64_t total() const;
+
+   private:
+    std::map<std::pair<std::string, std::string>, std::int64_t> rows_;
+};
+
+enum class LogFormat { observations, action_frames };
+
+/// How reading ended.
+enum class LogEnd { not_yet, clean, truncated, corrupt };
+
+/// One thing to process, in order. Exactly one of `observation` and `increment` is set.
+struct LogEntry {
+    Stamp stamp;
+    mrpt::obs::CObservation::Ptr observation;
+    /// Action-frame logs only: the odometry of the step that ends at `stamp`.
+    std::optional<OdometryIncrement> increment;
+    std::int64_t position = 0;  ///< index of the object in the file
+};
+
+/// Entries come out ordered by (stamp, odometry < lidar < detections, label, position in file), so that permuted
+/// arrival gives the same run; what comes later than the reorder window allows is dropped as 'late'. Action-frame
+/// logs are ordered by position; their time is the step number times `step` where the stamps cannot be used.
+class RawlogReader {
+   public:
+    /// Throws LogError when the file is missing, empty or no rawlog.
+    RawlogReader(const std::string& file, const LogParameters& parameters);
+    ~RawlogReader();
+
+    /// The next entry, or nothing at the end: then `end()` says which end it was.
+    std::optional<LogEntry> next();
+
+    LogFormat format() const;
+    LogEnd end() const;
+    /// For LogEnd::truncated and corrupt: one sentence with object number and byte.
+    const std::string& endMessage() const;
+    const DropTable& drops() const;
+    /// Part of the file read so far, 0 to 1.
+    double progress() const;
+
+   private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slamot
