@@ -60,8 +60,8 @@ FirstSight firstSight(const JointState& state, const RangeBearingDetection& dete
     if (consistency == Consistency::invariant) {
         // A noisy bearing bends the cloud of possible positions into a banana: its mean lies nearer, and it is thicker.
         const double bearing_variance = R(1, 1);
-        z.x() *= 1.0 - 0.5 * bearing_variance;
         R(0, 0) += 0.5 * (z.x() * bearing_variance) * (z.x() * bearing_variance);
+        z.x() *= 1.0 - 0.5 * bearing_variance;
     }
     const RangeBearingInverse inverse = invertRangeBearing(state.mean(robot_block), z, sensor);
     return {inverse.point, inverse.G_robot, inverse.G_z * R * inverse.G_z.transpose()};
