@@ -21,7 +21,8 @@ inline TruePose truePose(double t, double x, double y, double theta) {
     return {at(t), {x, y, theta}};
 }
 
-inline TrackEstimate track(std::int64_t id, std::int64_t source, double x, double y, double vx = 0, double vy = 0) {
+inline TrackEstimate track(std::int64_t id, std::int64_t source, double x, double y, double vx = 0,
+                           double vy = 0) {
     TrackEstimate t;
     t.id = {id};
     t.source = {source};
@@ -34,7 +35,8 @@ inline TrueTarget trueTarget(double t, double x, double y, double vx = 0, double
     return {at(t), {x, y}, {vx, vy}, {0, 0}, ""};
 }
 
-inline LandmarkEstimate landmark(std::int64_t id, std::int64_t source, double x, double y, std::int64_t seen = 1) {
+inline LandmarkEstimate landmark(std::int64_t id, std::int64_t source, double x, double y,
+                                 std::int64_t seen = 1) {
     LandmarkEstimate l;
     l.id = {id};
     l.source = {source};
@@ -44,8 +46,8 @@ inline LandmarkEstimate landmark(std::int64_t id, std::int64_t source, double x,
     return l;
 }
 
-inline InnovationRow innovation(double t, const std::string& sensor, ObjectKind kind, Outcome outcome, double nis,
-                                std::int64_t track_id = -1) {
+inline InnovationRow innovation(double t, const std::string& sensor, ObjectKind kind, Outcome outcome,
+                                double nis, std::int64_t track_id = -1) {
     InnovationRow r;
     r.stamp = at(t);
     r.sensor = sensor;
@@ -58,7 +60,7 @@ inline InnovationRow innovation(double t, const std::string& sensor, ObjectKind 
 
 /// A folder of its own for one test, removed at the end.
 class TemporaryFolder {
-   public:
+  public:
     explicit TemporaryFolder(const std::string& name)
         : path_(std::filesystem::temp_directory_path() /
                 ("slamot_eval_" + name + "_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
@@ -75,7 +77,7 @@ class TemporaryFolder {
         return (path_ / name).string();
     }
 
-   private:
+  private:
     std::filesystem::path path_;
 };
 

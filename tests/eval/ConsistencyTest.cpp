@@ -1,10 +1,9 @@
-#include "slamot/eval/Consistency.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "Builders.h"
 #include "slamot/core/random/RandomStream.h"
+#include "slamot/eval/Consistency.h"
 
 namespace slamot::eval {
 namespace {
@@ -33,8 +32,8 @@ TEST(Nees, LeavesOutWhatIsKnownExactly) {
 }
 
 TEST(Nees, LeavesOutACombinationKnownExactly) {
-    // x and y are one variable: P = s^2 [1 1; 1 1] with s = 2. Along (1, 1)/sqrt(2) the variance is 2 s^2 = 8 and
-    // the error of (3, 1) is 4 / sqrt(2): 8 / 8 = 1.
+    // x and y are one variable: P = s^2 [1 1; 1 1] with s = 2. Along (1, 1)/sqrt(2) the variance is 2 s^2 = 8
+    // and the error of (3, 1) is 4 / sqrt(2): 8 / 8 = 1.
     const SquaredError n = nees(Vector2(3, 1), Matrix2::Constant(4));
     EXPECT_NEAR(n.value, 1, 1e-13);
     EXPECT_EQ(n.dimension, 1);
@@ -64,8 +63,10 @@ TEST(ChiSquare, AgreesWithPrintedTables) {
 }
 
 TEST(NeesSummary, ByHand) {
-    // Two dimensions: band [0.0506, 7.378], quantile 5.991. One dimension: band [0.00098, 5.024], quantile 3.841.
-    const NeesSeries series{{at(0), {0, 0}}, {at(1), {1, 2}}, {at(2), {6.5, 2}}, {at(3), {8, 2}}, {at(4), {4.5, 1}}};
+    // Two dimensions: band [0.0506, 7.378], quantile 5.991. One dimension: band [0.00098, 5.024],
+    // quantile 3.841.
+    const NeesSeries series{
+        {at(0), {0, 0}}, {at(1), {1, 2}}, {at(2), {6.5, 2}}, {at(3), {8, 2}}, {at(4), {4.5, 1}}};
     const auto s = summariseNees(series, 0.95);
     ASSERT_TRUE(s);
     EXPECT_EQ(s->steps, 4);
@@ -87,7 +88,8 @@ TEST(NeesSummary, ZeroCovarianceIsUnknown) {
 
 TEST(ConsistencyOverRuns, ByHand) {
     // Two runs, two dimensions. Band of the mean of 2: chi-square of 4 degrees over 2, [0.484, 11.143] / 2.
-    // Step 0: (1 + 3) / 2 = 2 inside. Step 1: (9 + 4) / 2 = 6.5 above 5.57. Step 2: (0.1 + 0.2) / 2 below 0.242.
+    // Step 0: (1 + 3) / 2 = 2 inside. Step 1: (9 + 4) / 2 = 6.5 above 5.57. Step 2: (0.1 + 0.2) / 2 below
+    // 0.242.
     const NeesSeries one{{at(0), {1, 2}}, {at(1), {9, 2}}, {at(2), {0.1, 2}}};
     const NeesSeries two{{at(0), {3, 2}}, {at(1), {4, 2}}, {at(2), {0.2, 2}}};
     const auto c = consistencyOverRuns({one, two}, 0.95);
@@ -116,8 +118,8 @@ TEST(ConsistencyOverRuns, ARunWithoutAStepDoesNotCountThere) {
 }
 
 TEST(ConsistencyOverRuns, RightCovariancesAreInside) {
-    // 400 independent steps of 20 runs with errors really drawn from P: the number inside is binomial(400, 0.95),
-    // standard deviation 4.4 of 400: four of them are 0.044.
+    // 400 independent steps of 20 runs with errors really drawn from P: the number inside is binomial(400,
+    // 0.95), standard deviation 4.4 of 400: four of them are 0.044.
     const Matrix3 L = (Matrix3() << 2, 0, 0, 1, 0.5, 0, -0.3, 0.1, 0.05).finished();
     std::vector<NeesSeries> runs;
     for (std::uint32_t run = 0; run < 20; ++run) {

@@ -1,8 +1,8 @@
-#include "slamot/eval/ErrorSummary.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "slamot/eval/ErrorSummary.h"
 
 namespace slamot::eval {
 namespace {

@@ -1,9 +1,8 @@
-#include "slamot/eval/Landmarks.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "Builders.h"
+#include "slamot/eval/Landmarks.h"
 
 namespace slamot::eval {
 namespace {
@@ -18,7 +17,8 @@ Truth threeLandmarks() {
 
 TEST(Landmarks, BySourceIdByHand) {
     RunRecord run;
-    // 10 is off by 5 (3, 4), 11 exact; a second, less seen 11; 99 unknown to truth; one without an id. 12 missing.
+    // 10 is off by 5 (3, 4), 11 exact; a second, less seen 11; 99 unknown to truth; one without an id. 12
+    // missing.
     run.landmarks = {landmark(0, 10, 3, 4), landmark(1, 11, 10, 0, 8), landmark(2, 11, 10, 9, 3),
                      landmark(3, 99, 0, 0), landmark(4, -1, 0, 0)};
     run.landmarks[0].covariance = 4 * Matrix2::Identity();

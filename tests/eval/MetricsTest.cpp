@@ -1,5 +1,3 @@
-#include "slamot/eval/Metrics.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <sstream>
 
 #include "Builders.h"
+#include "slamot/eval/Metrics.h"
 
 namespace slamot::eval {
 namespace {
@@ -27,7 +26,8 @@ struct Case {
         }
         run.landmarks = {landmark(0, 3, 0.5, 0)};
         truth.landmarks[SourceId{3}] = {0, 0};
-        run.innovations = {innovation(1, "a sensor with a rather long label", ObjectKind::mover, Outcome::updated, 1, 0)};
+        run.innovations = {
+            innovation(1, "a sensor with a rather long label", ObjectKind::mover, Outcome::updated, 1, 0)};
     }
 };
 
@@ -60,7 +60,8 @@ TEST(Evaluate, RefusesTrajectoryMetricsTogether) {
     Case c;
     for (TruePose& p : c.truth.robot) p.stamp = later(p.stamp, 1e6);
     const Metrics m = evaluate(c.run, c.truth, {});
-    for (const std::string& why : {m.robot.whyAbsent(), m.ate.whyAbsent(), m.rpe.whyAbsent(), m.robot_nees.whyAbsent()})
+    for (const std::string& why :
+         {m.robot.whyAbsent(), m.ate.whyAbsent(), m.rpe.whyAbsent(), m.robot_nees.whyAbsent()})
         EXPECT_THAT(why, HasSubstr("0 of 11 estimates have a truth"));
     EXPECT_TRUE(m.targets);
 }

@@ -1,10 +1,9 @@
-#include "slamot/eval/Nis.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Builders.h"
+#include "slamot/eval/Nis.h"
 
 namespace slamot::eval {
 namespace {

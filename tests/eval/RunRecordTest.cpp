@@ -1,11 +1,10 @@
-#include "slamot/eval/RunRecord.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Builders.h"
+#include "slamot/eval/RunRecord.h"
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::eval {
@@ -28,16 +27,16 @@ const char* const trajectory_head = "t,x,y,theta,c_xx,c_xy,c_xt,c_yy,c_yt,c_tt\n
 
 TEST(ReadRun, TakesColumnsByName) {
     const TemporaryFolder folder("read_run");
-    folder.write("trajectory.csv", std::string(trajectory_head) + "1.5,1,2,0.25,11,12,13,22,23,33\n"
-                                                                  "1.6,3,4,0.5,0,0,0,0,0,0\n");
+    folder.write("trajectory.csv", std::string(trajectory_head) +
+                                       "1.5,1,2,0.25,11,12,13,22,23,33\n"
+                                       "1.6,3,4,0.5,0,0,0,0,0,0\n");
     std::string head = "t,track,x,y,vx,vy,ax,ay", values = "1.5,4,1,2,3,4,5,6";
     for (int r = 0; r < 6; ++r)
         for (int c = r; c < 6; ++c) {
             head += ",c_" + std::to_string(r) + "_" + std::to_string(c);
             values += "," + std::to_string(10 * r + c);
         }
-    folder.write("tracks.csv",
-                 head + ",existence,p_cv,p_ct,source_id\n" + values + ",0.75,0.25,0.5,42\n");
+    folder.write("tracks.csv", head + ",existence,p_cv,p_ct,source_id\n" + values + ",0.75,0.25,0.5,42\n");
     // Columns in another order than written today.
     folder.write("landmarks.csv",
                  "source_id,id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t\n-1,3,7,8,1,0.5,2,12,1.5,1.6\n");
@@ -82,10 +81,12 @@ TEST(ReadRun, OnlyTheTrajectoryMustBeThere) {
 
 TEST(ReadRun, BadRowsAreNamed) {
     const TemporaryFolder folder("bad");
-    folder.write("trajectory.csv", std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n1,nan,0,0,0,0,0,0,0,0\n");
+    folder.write("trajectory.csv",
+                 std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n1,nan,0,0,0,0,0,0,0,0\n");
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }),
                 AllOf(HasSubstr("trajectory.csv"), HasSubstr("3"), HasSubstr("finite number")));
-    folder.write("trajectory.csv", std::string(trajectory_head) + "1,0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0,0\n");
+    folder.write("trajectory.csv",
+                 std::string(trajectory_head) + "1,0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0,0\n");
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }), HasSubstr("a time after the row before"));
     folder.write("trajectory.csv", std::string(trajectory_head) + "1,0,0,0,0,0,0,0,0,0\n");
     folder.write("innovations.csv",
@@ -99,7 +100,8 @@ TEST(ReadTum, ReadsYawAndExactStamps) {
     const TemporaryFolder folder("tum");
     // Yaw 2 atan2(0.6, 0.8); then a half turn. Comments and exponents occur in the wild.
     const RunRecord run = readTum(folder.write(
-        "a.tum", "# t x y z qx qy qz qw\n1400000000.1234567 1 2 3 0 0 0.6 0.8\n1.4000000005e9 4 5 6 0 0 1 0\n"));
+        "a.tum",
+        "# t x y z qx qy qz qw\n1400000000.1234567 1 2 3 0 0 0.6 0.8\n1.4000000005e9 4 5 6 0 0 1 0\n"));
     ASSERT_EQ(run.trajectory.size(), 2u);
     EXPECT_EQ(run.trajectory[0].stamp.ticks, 14'000'000'001'234'567);
     EXPECT_NEAR(run.trajectory[0].robot.mean.theta, 2 * std::atan2(0.6, 0.8), 1e-14);
@@ -115,8 +117,10 @@ TEST(ReadTum, RefusesWithASentence) {
         return messageOf([&] { readTum(file); });
     };
     EXPECT_THAT(refuse("1 2 3\n"), HasSubstr("line 1: 3 numbers, expected the 8"));
-    EXPECT_THAT(refuse("1 0 0 0 0 0 0 1\n2 0 x 0 0 0 0 1\n"), HasSubstr("line 2: 'x', expected a finite number"));
-    EXPECT_THAT(refuse("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), HasSubstr("line 2: time 1, expected one after"));
+    EXPECT_THAT(refuse("1 0 0 0 0 0 0 1\n2 0 x 0 0 0 0 1\n"),
+                HasSubstr("line 2: 'x', expected a finite number"));
+    EXPECT_THAT(refuse("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
+                HasSubstr("line 2: time 1, expected one after"));
     EXPECT_THAT(refuse("1400000000123456789 0 0 0 0 0 0 1\n"), HasSubstr("nanoseconds; expected seconds"));
     EXPECT_THAT(refuse("1 0 0 0 0 0 0 0\n"), HasSubstr("unit quaternion"));
     EXPECT_THAT(refuse("# nothing\n"), HasSubstr("no rows"));

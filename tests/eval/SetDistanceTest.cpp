@@ -1,8 +1,7 @@
-#include "slamot/eval/SetDistance.h"
-
 #include <gtest/gtest.h>
 
 #include "Builders.h"
+#include "slamot/eval/SetDistance.h"
 
 namespace slamot::eval {
 namespace {
@@ -24,7 +23,8 @@ TEST(SetDistance, ByHand) {
 }
 
 TEST(SetDistance, FarPairsAreOneMissedAndOneFalse) {
-    // One estimate 40 m from the one truth, order 1, cutoff 8: OSPA 8, all localisation; GOSPA 4 missed + 4 false.
+    // One estimate 40 m from the one truth, order 1, cutoff 8: OSPA 8, all localisation; GOSPA 4 missed + 4
+    // false.
     const SetDistance d = setDistance({{0, 0}}, {{40, 0}}, 1, 8);
     EXPECT_DOUBLE_EQ(d.ospa.total, 8);
     EXPECT_DOUBLE_EQ(d.ospa.cardinality, 0);
@@ -35,7 +35,8 @@ TEST(SetDistance, FarPairsAreOneMissedAndOneFalse) {
 }
 
 TEST(SetDistance, AssignsTheWholeSetNotTheNearest) {
-    // Estimates 1 and 2, truths 2 and 5: greedy takes 2-2 (0) and 1-5 (16); the optimum is 1-2 and 2-5: 1 + 9.
+    // Estimates 1 and 2, truths 2 and 5: greedy takes 2-2 (0) and 1-5 (16); the optimum is 1-2 and 2-5: 1
+    // + 9.
     const double expected = std::sqrt(10.0 / 2);
     EXPECT_DOUBLE_EQ(setDistance({{1, 0}, {2, 0}}, {{2, 0}, {5, 0}}, 2, 10).ospa.total, expected);
     EXPECT_DOUBLE_EQ(setDistance({{1, 0}, {2, 0}}, {{5, 0}, {2, 0}}, 2, 10).ospa.total, expected);

@@ -1,17 +1,17 @@
-#include "slamot/eval/Tracks.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Builders.h"
+#include "slamot/eval/Tracks.h"
 
 namespace slamot::eval {
 namespace {
 
 TEST(Tracks, GlobalAndRelativeErrorsByHand) {
-    // The robot truly stands at the origin looking along x and believes to stand at (1, 0) looking along y. The target
-    // is truly at (4, 0) moving (0, 2); the track is at (1, 4) moving (-2, 0): as the robot sees it, all is right.
+    // The robot truly stands at the origin looking along x and believes to stand at (1, 0) looking along y.
+    // The target is truly at (4, 0) moving (0, 2); the track is at (1, 4) moving (-2, 0): as the robot sees
+    // it, all is right.
     RunRecord run;
     run.trajectory = {row(0, 1, 0, pi / 2)};
     run.tracks[at(0)] = {track(3, 7, 1, 4, -2, 0)};
@@ -42,7 +42,8 @@ TEST(Tracks, RelativeNeedsTheRobotsTruthAndVelocityTheTargets) {
     Truth truth;
     truth.robot = {truePose(5, 0, 0, 0)};
     const double unknown = std::nan("");
-    truth.targets[SourceId{7}] = {trueTarget(0, 0, 0, unknown, unknown), trueTarget(5, 0, 0, unknown, unknown)};
+    truth.targets[SourceId{7}] = {trueTarget(0, 0, 0, unknown, unknown),
+                                  trueTarget(5, 0, 0, unknown, unknown)};
     const auto m = targetMetrics(run, truth, {});
     ASSERT_TRUE(m);
     EXPECT_EQ(m->all.position.count, 2);
@@ -101,7 +102,8 @@ TEST(Tracks, SaysWhatIsMissing) {
     EXPECT_EQ(targetMetrics(run, {}, {}).whyAbsent(), "truth has no targets");
     Truth truth;
     truth.targets[SourceId{7}] = {trueTarget(0, 0, 0)};
-    EXPECT_EQ(targetMetrics(run, truth, {}).whyAbsent(), "no track carries a source id; OSPA and GOSPA need none");
+    EXPECT_EQ(targetMetrics(run, truth, {}).whyAbsent(),
+              "no track carries a source id; OSPA and GOSPA need none");
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ SquaredError nees(const SmallVector& error, const SmallMatrix& covariance) {
     SmallMatrix correlation(n, n);
     for (Eigen::Index r = 0; r < n; ++r)
         for (Eigen::Index c = 0; c < n; ++c)
-            correlation(r, c) =
-                covariance(kept(r), kept(c)) / std::sqrt(covariance(kept(r), kept(r)) * covariance(kept(c), kept(c)));
+            correlation(r, c) = covariance(kept(r), kept(c)) /
+                                std::sqrt(covariance(kept(r), kept(r)) * covariance(kept(c), kept(c)));
 
     const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(correlation);
     const SmallVector variances = eigen.eigenvalues();
@@ -45,7 +45,8 @@ double chiSquareQuantile(double probability, double degrees) {
 
 Band chiSquareBand(double probability, double total_degrees, double count) {
     const double tail = (1 - probability) / 2;
-    return {chiSquareQuantile(tail, total_degrees) / count, chiSquareQuantile(1 - tail, total_degrees) / count};
+    return {chiSquareQuantile(tail, total_degrees) / count,
+            chiSquareQuantile(1 - tail, total_degrees) / count};
 }
 
 const Band& ChiSquareTable::band(int dimension) {
@@ -113,7 +114,8 @@ Measured<ConsistencyOverRuns> consistencyOverRuns(const std::vector<NeesSeries>&
             sum.value += step.squared.value;
         }
     if (by_stamp.empty())
-        return Measured<ConsistencyOverRuns>::absent("no run has a step whose covariance is known and not zero");
+        return Measured<ConsistencyOverRuns>::absent(
+            "no run has a step whose covariance is known and not zero");
 
     ConsistencyOverRuns result;
     result.runs = static_cast<int>(runs.size());

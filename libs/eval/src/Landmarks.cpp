@@ -25,7 +25,8 @@ std::vector<LandmarkPair> pairsBySource(const std::vector<LandmarkEstimate>& est
     }
     std::vector<LandmarkPair> pairs;
     for (const auto& [source, estimate] : best)
-        if (const auto truth = truths.find(source); truth != truths.end()) pairs.push_back({estimate, truth->second});
+        if (const auto truth = truths.find(source); truth != truths.end())
+            pairs.push_back({estimate, truth->second});
     return pairs;
 }
 
@@ -34,7 +35,8 @@ std::vector<LandmarkPair> pairsByAssignment(const std::vector<LandmarkEstimate>&
                                             const std::map<SourceId, Vector2>& truths, double cutoff) {
     std::vector<Vector2> points;
     for (const auto& [source, position] : truths) points.push_back(position);
-    Eigen::MatrixXd cost(static_cast<Eigen::Index>(estimates.size()), static_cast<Eigen::Index>(points.size()));
+    Eigen::MatrixXd cost(static_cast<Eigen::Index>(estimates.size()),
+                         static_cast<Eigen::Index>(points.size()));
     for (Eigen::Index i = 0; i < cost.rows(); ++i)
         for (Eigen::Index j = 0; j < cost.cols(); ++j) {
             const double d =
@@ -51,7 +53,8 @@ std::vector<LandmarkPair> pairsByAssignment(const std::vector<LandmarkEstimate>&
 
 }  // namespace
 
-Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth, const EvaluationOptions& options) {
+Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth,
+                                        const EvaluationOptions& options) {
     using Result = Measured<LandmarkErrors>;
     if (run.landmarks.empty()) return Result::absent("the run has no landmarks");
     if (truth.landmarks.empty()) return Result::absent("truth has no landmarks");

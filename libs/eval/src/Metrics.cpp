@@ -7,7 +7,8 @@ NeesSeries robotNees(const std::vector<PosePair>& pairs) {
     series.reserve(pairs.size());
     for (const PosePair& pair : pairs) {
         const Pose2& m = pair.estimate.mean;
-        const Vector3 error{m.x - pair.truth.x, m.y - pair.truth.y, angleDifference(m.theta, pair.truth.theta)};
+        const Vector3 error{m.x - pair.truth.x, m.y - pair.truth.y,
+                            angleDifference(m.theta, pair.truth.theta)};
         series.push_back({pair.stamp, nees(error, pair.estimate.covariance)});
     }
     return series;

@@ -90,7 +90,8 @@ Json json(const TrackSetDistance& t) {
 
 /// Puts the metric at `place`[`name`], or the reason at `absent`[`path`].
 template <class T>
-void put(Json& place, const std::string& name, const Measured<T>& metric, Json& absent, const std::string& path) {
+void put(Json& place, const std::string& name, const Measured<T>& metric, Json& absent,
+         const std::string& path) {
     if (metric)
         place[name] = json(*metric);
     else

@@ -9,9 +9,9 @@
 
 namespace slamot::eval {
 
-Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& innovations, double probability) {
-    if (innovations.empty())
-        return Measured<std::vector<NisGroup>>::absent("the run has no innovations");
+Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& innovations,
+                                            double probability) {
+    if (innovations.empty()) return Measured<std::vector<NisGroup>>::absent("the run has no innovations");
 
     // Range and bearing: an innovation's S is positive definite, so both always count.
     constexpr int degrees = 2;

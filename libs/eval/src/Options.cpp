@@ -4,9 +4,12 @@ namespace slamot::eval {
 
 const char* toText(Alignment alignment) {
     switch (alignment) {
-        case Alignment::none: return "none";
-        case Alignment::se2: return "se2";
-        case Alignment::first_pose: return "first_pose";
+        case Alignment::none:
+            return "none";
+        case Alignment::se2:
+            return "se2";
+        case Alignment::first_pose:
+            return "first_pose";
     }
     return "";
 }
@@ -17,9 +20,12 @@ const char* toText(RelativeUnit unit) {
 
 const char* toText(Matching matching) {
     switch (matching) {
-        case Matching::automatic: return "auto";
-        case Matching::source_id: return "source_id";
-        case Matching::assignment: return "assignment";
+        case Matching::automatic:
+            return "auto";
+        case Matching::source_id:
+            return "source_id";
+        case Matching::assignment:
+            return "assignment";
     }
     return "";
 }
@@ -27,9 +33,10 @@ const char* toText(Matching matching) {
 ParameterTable describe(EvaluationOptions& o) {
     ParameterTable table("eval", "How a run is compared with truth; formulae in doc/metrics.md.");
     table
-        .real("min_matched", o.min_matched, "", Interval::probability(),
-              "least part of the estimates within truth's span that must have a truth; below it no trajectory "
-              "metric is given")
+        .real(
+            "min_matched", o.min_matched, "", Interval::probability(),
+            "least part of the estimates within truth's span that must have a truth; below it no trajectory "
+            "metric is given")
         .choice("alignment", o.alignment,
                 {{"none", Alignment::none}, {"se2", Alignment::se2}, {"first_pose", Alignment::first_pose}},
                 "how the trajectory is laid on truth for the ATE; every other metric is unaligned")

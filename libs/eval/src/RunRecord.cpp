@@ -41,7 +41,7 @@ Enum word(const CsvReader& table, int column, const std::array<Enum, N>& all) {
 /// Columns of a symmetric matrix's upper triangle, row by row.
 template <int N>
 class SymmetricColumns {
-   public:
+  public:
     template <class NameOf>
     SymmetricColumns(const CsvReader& table, NameOf name_of) {
         for (int r = 0; r < N; ++r)
@@ -55,20 +55,22 @@ class SymmetricColumns {
         return m;
     }
 
-   private:
+  private:
     std::vector<int> columns_;
 };
 
 std::vector<RobotRow> readTrajectory(const std::string& file) {
     CsvReader table(file);
-    const int t = table.column("t"), x = table.column("x"), y = table.column("y"), theta = table.column("theta");
+    const int t = table.column("t"), x = table.column("x"), y = table.column("y"),
+              theta = table.column("theta");
     const SymmetricColumns<3> covariance(
         table, [](int r, int c) { return fmt::format("c_{}{}", "xyt"[r], "xyt"[c]); });
     std::vector<RobotRow> rows;
     while (table.next()) {
         const Stamp stamp = table.stamp(t);
         if (!rows.empty() && stamp <= rows.back().stamp)
-            table.fail(t, fmt::format("a time after the row before ({} s)", slamot::toText(rows.back().stamp)));
+            table.fail(t,
+                       fmt::format("a time after the row before ({} s)", slamot::toText(rows.back().stamp)));
         const Pose2 pose{finite(table, x), finite(table, y), wrapAngle(finite(table, theta))};
         rows.push_back({stamp, {pose, covariance.read(table)}});
     }
@@ -94,7 +96,8 @@ void readTracks(const std::string& file, RunRecord& run) {
         TrackEstimate track;
         track.id = {table.integer(id)};
         track.source = {idOrNone(table, source)};
-        for (std::size_t i = 0; i < 6; ++i) track.mean(static_cast<Eigen::Index>(i)) = finite(table, state[i]);
+        for (std::size_t i = 0; i < 6; ++i)
+            track.mean(static_cast<Eigen::Index>(i)) = finite(table, state[i]);
         track.covariance = covariance.read(table);
         track.existence = finite(table, existence);
         for (const int mode : modes) track.mode_probabilities.push_back(finite(table, mode));
@@ -104,7 +107,8 @@ void readTracks(const std::string& file, RunRecord& run) {
 
 std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
     CsvReader table(file);
-    const int id = table.column("id"), x = table.column("x"), y = table.column("y"), seen = table.column("seen");
+    const int id = table.column("id"), x = table.column("x"), y = table.column("y"),
+              seen = table.column("seen");
     const int first = table.column("first_t"), last = table.column("last_t");
     const SymmetricColumns<2> covariance(
         table, [](int r, int c) { return fmt::format("c_{}{}", "xy"[r], "xy"[c]); });
@@ -127,8 +131,10 @@ std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
 std::vector<InnovationRow> readInnovations(const std::string& file) {
     CsvReader table(file);
     const int t = table.column("t"), sensor = table.column("sensor"), kind = table.column("kind");
-    const int landmark = table.column("landmark"), track = table.column("track"), outcome = table.column("outcome");
-    const int r_range = table.column("r_range"), r_bearing = table.column("r_bearing"), nis = table.column("nis");
+    const int landmark = table.column("landmark"), track = table.column("track"),
+              outcome = table.column("outcome");
+    const int r_range = table.column("r_range"), r_bearing = table.column("r_bearing"),
+              nis = table.column("nis");
     const int s_rr = table.column("s_rr"), s_rb = table.column("s_rb"), s_bb = table.column("s_bb");
     const auto detection = columnIfAny(table, "detection");
     const std::array kinds{ObjectKind::landmark, ObjectKind::mover, ObjectKind::unknown};

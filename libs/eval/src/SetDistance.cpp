@@ -14,23 +14,26 @@ double root(double power, double p) {
 
 /// Distances of the pairs of the assignment that is best for the distance cut off at c, to the power p.
 std::vector<double> assignedPowers(const Points& estimates, const Points& truths, double p, double c) {
-    Eigen::MatrixXd cost(static_cast<Eigen::Index>(estimates.size()), static_cast<Eigen::Index>(truths.size()));
+    Eigen::MatrixXd cost(static_cast<Eigen::Index>(estimates.size()),
+                         static_cast<Eigen::Index>(truths.size()));
     for (Eigen::Index i = 0; i < cost.rows(); ++i)
         for (Eigen::Index j = 0; j < cost.cols(); ++j) {
-            const double d = (estimates[static_cast<std::size_t>(i)] - truths[static_cast<std::size_t>(j)]).norm();
+            const double d =
+                (estimates[static_cast<std::size_t>(i)] - truths[static_cast<std::size_t>(j)]).norm();
             cost(i, j) = std::pow(std::min(d, c), p);
         }
     const Assignment assignment = optimalAssignment(cost);
     std::vector<double> powers;
     for (std::size_t i = 0; i < estimates.size(); ++i)
-        if (const int j = assignment.column_of_row[i]; j >= 0) powers.push_back(cost(static_cast<Eigen::Index>(i), j));
+        if (const int j = assignment.column_of_row[i]; j >= 0)
+            powers.push_back(cost(static_cast<Eigen::Index>(i), j));
     return powers;
 }
 
 }  // namespace
 
-// One assignment serves both: cut off at c, a pair costs GOSPA as much as leaving both points out (c^p / 2 each),
-// so the pairs at the cutoff are those GOSPA does not make.
+// One assignment serves both: cut off at c, a pair costs GOSPA as much as leaving both points out (c^p / 2
+// each), so the pairs at the cutoff are those GOSPA does not make.
 SetDistance setDistance(const Points& estimates, const Points& truths, double p, double c) {
     const auto m = static_cast<double>(estimates.size()), n = static_cast<double>(truths.size());
     SetDistance result;

@@ -13,13 +13,14 @@ constexpr std::size_t width = 80;
 
 /// One block of the table: a head and rows of a name and right-aligned cells, 32 + 5 x 9 columns at most.
 class Block {
-   public:
-    Block(std::string title, std::vector<std::string> heads) : title_(std::move(title)), heads_(std::move(heads)) {}
+  public:
+    Block(std::string title, std::vector<std::string> heads)
+        : title_(std::move(title)), heads_(std::move(heads)) {}
     void row(const std::string& name, const std::vector<std::string>& cells) { rows_ += line(name, cells); }
     /// Empty when there are no rows.
     std::string text() const { return rows_.empty() ? "" : "\n" + line(title_, heads_) + rows_; }
 
-   private:
+  private:
     static std::string line(const std::string& name, const std::vector<std::string>& cells) {
         std::string text = fmt::format("{:<32.32}", name);
         for (const std::string& cell : cells) text += fmt::format("{:>9}", cell);
@@ -50,7 +51,8 @@ Block errorBlock(const Metrics& m) {
         errorRow(block, "robot position [m]", m.robot->position);
         errorRow(block, "robot heading [deg]", m.robot->heading, to_degrees);
     }
-    if (m.ate) errorRow(block, fmt::format("ATE, aligned: {} [m]", toText(m.ate->alignment)), m.ate->position);
+    if (m.ate)
+        errorRow(block, fmt::format("ATE, aligned: {} [m]", toText(m.ate->alignment)), m.ate->position);
     if (m.rpe) {
         const std::string over = fmt::format("RPE over {:.4g} {}", m.rpe->delta, toText(m.rpe->unit));
         errorRow(block, over + " [m]", m.rpe->position);
@@ -162,20 +164,23 @@ std::string absences(const Metrics& m) {
 }  // namespace
 
 std::string summaryTable(const Metrics& m) {
-    std::string text = wrapped(fmt::format("Robot: {} of the {} estimates within truth's span matched; {} in all.",
-                                           m.matching.matched, m.matching.covered, m.matching.total));
+    std::string text =
+        wrapped(fmt::format("Robot: {} of the {} estimates within truth's span matched; {} in all.",
+                            m.matching.matched, m.matching.covered, m.matching.total));
     if (m.landmarks)
-        text += wrapped(fmt::format("Landmarks: {} matched by {}, {} missing, {} extra.", m.landmarks->matched,
-                                    m.landmarks->matching == Matching::source_id
-                                        ? std::string("source id")
-                                        : fmt::format("assignment within {:.4g} m", m.options.landmark_cutoff),
-                                    m.landmarks->missing, m.landmarks->extra));
+        text +=
+            wrapped(fmt::format("Landmarks: {} matched by {}, {} missing, {} extra.", m.landmarks->matched,
+                                m.landmarks->matching == Matching::source_id
+                                    ? std::string("source id")
+                                    : fmt::format("assignment within {:.4g} m", m.options.landmark_cutoff),
+                                m.landmarks->missing, m.landmarks->extra));
     if (m.targets)
-        text += wrapped(fmt::format(
-            "Targets, over all stamps: {} matched, {} missed, {} tracks without a truth, {} without a source id, "
-            "{} doubled.",
-            m.targets->matched, m.targets->missed, m.targets->without_truth, m.targets->without_source,
-            m.targets->doubled));
+        text +=
+            wrapped(fmt::format("Targets, over all stamps: {} matched, {} missed, {} tracks without a truth, "
+                                "{} without a source id, "
+                                "{} doubled.",
+                                m.targets->matched, m.targets->missed, m.targets->without_truth,
+                                m.targets->without_source, m.targets->doubled));
     for (const Block& block : {errorBlock(m), consistencyBlock(m), innovationBlock(m), setBlock(m)})
         text += block.text();
     return text + absences(m);

@@ -41,15 +41,16 @@ Sample sampleOf(const RobotRow& row, const TrackEstimate& track, const TrueTarge
     if (true_robot) {
         // World velocities turned into the robot's axes: the robot's own motion is not taken off.
         const Pose2 &estimated_frame = row.robot.mean, &true_frame = *true_robot;
-        sample.relative_position = (inverse(estimated_frame) * p - inverse(true_frame) * target.position).norm();
+        sample.relative_position =
+            (inverse(estimated_frame) * p - inverse(true_frame) * target.position).norm();
         sample.relative_velocity =
             (rotation(-estimated_frame.theta) * v - rotation(-true_frame.theta) * target.velocity).norm();
     }
     return sample;
 }
 
-/// The tracks of one stamp by target; of several with one source the one of highest existence, of equals the one
-/// of lowest id.
+/// The tracks of one stamp by target; of several with one source the one of highest existence, of equals the
+/// one of lowest id.
 std::map<SourceId, const TrackEstimate*> tracksByTarget(const std::vector<TrackEstimate>& tracks,
                                                         TargetMetrics& counts) {
     std::map<SourceId, const TrackEstimate*> by_target;
@@ -84,7 +85,8 @@ TargetErrors errorsOf(const std::vector<const Sample*>& samples, double probabil
 
 }  // namespace
 
-Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth, const EvaluationOptions& options) {
+Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth,
+                                      const EvaluationOptions& options) {
     using Result = Measured<TargetMetrics>;
     if (run.tracks.empty()) return Result::absent("the run has no tracks");
     if (truth.targets.empty()) return Result::absent("truth has no targets");
@@ -103,7 +105,8 @@ Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth, 
                 ++result.without_truth;
                 continue;
             }
-            samples.push_back(sampleOf(row, *track, *target, true_robot, seen.count({row.stamp, track->id}) > 0));
+            samples.push_back(
+                sampleOf(row, *track, *target, true_robot, seen.count({row.stamp, track->id}) > 0));
         }
         for (const auto& [id, states] : truth.targets)
             result.missed += by_target.count(id) == 0 && truth.targetAt(id, row.stamp).has_value();
@@ -122,10 +125,12 @@ Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth, 
         by_target[sample.target].push_back(&sample);
     }
     result.all = errorsOf(all, options.probability);
-    result.seen = while_seen.empty() ? Measured<TargetErrors>::absent(
-                                           "no innovation says that a track with a truth was updated or initiated")
-                                     : Measured<TargetErrors>(errorsOf(while_seen, options.probability));
-    for (const auto& [id, of_target] : by_target) result.by_target[id] = errorsOf(of_target, options.probability);
+    result.seen = while_seen.empty()
+                      ? Measured<TargetErrors>::absent(
+                            "no innovation says that a track with a truth was updated or initiated")
+                      : Measured<TargetErrors>(errorsOf(while_seen, options.probability));
+    for (const auto& [id, of_target] : by_target)
+        result.by_target[id] = errorsOf(of_target, options.probability);
     return result;
 }
 

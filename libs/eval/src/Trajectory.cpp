@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "StampUnits.h"
@@ -35,12 +34,14 @@ std::optional<std::string> whyTooFew(const PairedTrajectory& paired, const std::
     const StampSpan truth_span{truth.robot.front().stamp, truth.robot.back().stamp};
     const auto mistake = unitMistake(run_span, truth_span);
     if (n.covered == 0 || mistake)
-        return fmt::format("{} of {} estimates have a truth: the run covers {} s to {} s, truth {} s to {} s{}{}",
-                           n.matched, n.total, slamot::toText(run_span.first), slamot::toText(run_span.last),
-                           slamot::toText(truth_span.first), slamot::toText(truth_span.last), mistake ? "; " : "",
-                           mistake.value_or(""));
+        return fmt::format(
+            "{} of {} estimates have a truth: the run covers {} s to {} s, truth {} s to {} s{}{}", n.matched,
+            n.total, slamot::toText(run_span.first), slamot::toText(run_span.last),
+            slamot::toText(truth_span.first), slamot::toText(truth_span.last), mistake ? "; " : "",
+            mistake.value_or(""));
     return fmt::format(
-        "only {} of the {} estimates within truth's span have a truth, expected at least {} of them: truth is not "
+        "only {} of the {} estimates within truth's span have a truth, expected at least {} of them: truth "
+        "is not "
         "interpolated across gaps of more than {} s",
         n.matched, n.covered, min_matched, Truth::max_interpolation_gap);
 }
@@ -71,15 +72,27 @@ Pose2 alignmentOf(const std::vector<PosePair>& pairs, Alignment alignment) {
     if (pairs.empty() || alignment == Alignment::none) return {};
     if (alignment == Alignment::first_pose) return pairs.front().truth * inverse(pairs.front().estimate.mean);
 
-    // Umeyama 1991, without scale. Positions that do not spread leave the rotation undetermined: none is made.
-    const auto n = static_cast<Eigen::Index>(pairs.size());
-    Eigen::Matrix2Xd from(2, n), to(2, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        from.col(i) = pairs[static_cast<std::size_t>(i)].estimate.mean.position();
-        to.col(i) = pairs[static_cast<std::size_t>(i)].truth.position();
+    // Least squares without scale (Umeyama 1991); in the plane the rotation is the angle of the summed
+    // products of the centred positions. Positions that spread less than a micrometre leave it undetermined:
+    // nothing is turned.
+    const auto n = static_cast<double>(pairs.size());
+    Vector2 mean_estimate = Vector2::Zero(), mean_truth = Vector2::Zero();
+    for (const PosePair& pair : pairs) {
+        mean_estimate += pair.estimate.mean.position() / n;
+        mean_truth += pair.truth.position() / n;
     }
-    const Matrix3 T = Eigen::umeyama(from, to, false);
-    return {T(0, 2), T(1, 2), std::atan2(T(1, 0), T(0, 0))};
+    double cosine_sum = 0, sine_sum = 0;
+    for (const PosePair& pair : pairs) {
+        const Vector2 a = pair.estimate.mean.position() - mean_estimate,
+                      b = pair.truth.position() - mean_truth;
+        cosine_sum += a.dot(b);
+        sine_sum += a.x() * b.y() - a.y() * b.x();
+    }
+    constexpr double least_spread = 1e-6;
+    const bool spread = std::hypot(sine_sum, cosine_sum) > n * least_spread * least_spread;
+    const double theta = spread ? std::atan2(sine_sum, cosine_sum) : 0.0;
+    const Vector2 shift = mean_truth - rotation(theta) * mean_estimate;
+    return {shift.x(), shift.y(), theta};
 }
 
 AbsoluteError absoluteError(const std::vector<PosePair>& pairs, Alignment alignment) {
@@ -89,7 +102,8 @@ AbsoluteError absoluteError(const std::vector<PosePair>& pairs, Alignment alignm
 }
 
 Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double delta, RelativeUnit unit) {
-    // Where each pose stands on the axis that delta is measured on: time since the start, or true path length.
+    // Where each pose stands on the axis that delta is measured on: time since the start, or true path
+    // length.
     std::vector<double> along(pairs.size(), 0.0);
     for (std::size_t i = 1; i < pairs.size(); ++i)
         along[i] = unit == RelativeUnit::seconds
@@ -113,10 +127,11 @@ Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double
         sum_delta += length;
     }
     if (position.empty())
-        return Measured<RelativeError>::absent(fmt::format(
-            "no two matched poses are between {} and {} {} apart", delta, delta * (1 + most_overshoot), toText(unit)));
-    return RelativeError{delta, unit, sum_delta / static_cast<double>(position.size()), summariseErrors(position),
-                         summariseErrors(heading)};
+        return Measured<RelativeError>::absent(
+            fmt::format("no two matched poses are between {} and {} {} apart", delta,
+                        delta * (1 + most_overshoot), toText(unit)));
+    return RelativeError{delta, unit, sum_delta / static_cast<double>(position.size()),
+                         summariseErrors(position), summariseErrors(heading)};
 }
 
 }  // namespace slamot::eval

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "slamot/core/config/Parameters.h"
 #include "slamot/eval/RunRecord.h"
@@ -12,8 +13,9 @@
 namespace slamot::eval {
 namespace {
 
-/// Stamps of this project reach to about the year 31,000: seconds beyond are another unit.
-constexpr double latest_stamp = 9.2e11;
+/// [s] since the epoch, about the year 3,200. What lies beyond is another unit: today is 1.8e12 in
+/// milliseconds.
+constexpr double latest_stamp = 4e10;
 
 struct TumLine {
     double t, x, y, z, qx, qy, qz, qw;
@@ -31,12 +33,14 @@ TumLine parse(const std::string& text, const std::string& file, int line) {
     std::size_t n = 0;
     for (; in >> word; ++n) {
         const auto number = numberFromText(word);
-        if (!number || !std::isfinite(*number)) fail(file, line, fmt::format("'{}', expected a finite number", word));
+        if (!number || !std::isfinite(*number))
+            fail(file, line, fmt::format("'{}', expected a finite number", word));
         if (n == 0) stamp_text = word;
         if (n < numbers.size()) numbers[n] = *number;
     }
     if (n != numbers.size())
-        fail(file, line, fmt::format("{} numbers, expected the 8 of a TUM trajectory: t x y z qx qy qz qw", n));
+        fail(file, line,
+             fmt::format("{} numbers, expected the 8 of a TUM trajectory: t x y z qx qy qz qw", n));
     const auto [t, x, y, z, qx, qy, qz, qw] = numbers;
     return {t, x, y, z, qx, qy, qz, qw, stamp_text};
 }
@@ -44,12 +48,18 @@ TumLine parse(const std::string& text, const std::string& file, int line) {
 /// Decimal text is read exactly; a double of seconds since the epoch is only good to about 0.2 us.
 Stamp stampOf(const TumLine& row, const std::string& file, int line) {
     if (std::abs(row.t) > latest_stamp)
-        fail(file, line,
-             fmt::format("stamp {} is too large for seconds since the epoch, it looks like milliseconds, microseconds "
-                         "or nanoseconds; expected seconds",
-                         row.stamp_text));
+        fail(
+            file, line,
+            fmt::format(
+                "stamp {} is too large for seconds since the epoch, it looks like milliseconds, microseconds "
+                "or nanoseconds; expected seconds",
+                row.stamp_text));
     const bool decimal = row.stamp_text.find_first_of("eE") == std::string::npos;
-    return decimal ? stampFromText(row.stamp_text) : Stamp::fromSeconds(row.t);
+    try {
+        return decimal ? stampFromText(row.stamp_text) : Stamp::fromSeconds(row.t);
+    } catch (const std::invalid_argument& e) {
+        fail(file, line, fmt::format("{}, expected decimal seconds", e.what()));
+    }
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-#include "slamot/core/association/Assignment.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
+#include "slamot/core/association/Assignment.h"
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
@@ -38,7 +37,8 @@ BruteForce bruteForce(const Eigen::MatrixXd& cost) {
 TEST(Assignment, AgreesWithBruteForceOnRandomMatrices) {
     RandomStream random(5, RandomPurpose::test);
     for (int trial = 0; trial < 150; ++trial) {
-        const int rows = 1 + static_cast<int>(random.uniform(0, 4)), columns = 1 + static_cast<int>(random.uniform(0, 4));
+        const int rows = 1 + static_cast<int>(random.uniform(0, 4)),
+                  columns = 1 + static_cast<int>(random.uniform(0, 4));
         Eigen::MatrixXd cost(rows, columns);
         for (Eigen::Index i = 0; i < cost.size(); ++i)
             cost.data()[i] = random.uniform() < 0.25 ? forbidden_pair : random.uniform(-3, 8);

@@ -35,8 +35,9 @@ std::pair<double, double> costRange(const Eigen::MatrixXd& cost) {
 
 }  // namespace
 
-// A minimum-cost flow of one unit per row: to a column along an allowed pair, or to a slack node at a price above
-// any sum of pair costs, so that pairs are never given up for cost. The slack node fills the columns no row took.
+// A minimum-cost flow of one unit per row: to a column along an allowed pair, or to a slack node at a price
+// above any sum of pair costs, so that pairs are never given up for cost. The slack node fills the columns no
+// row took.
 Assignment optimalAssignment(const Eigen::MatrixXd& cost) {
     const int rows = static_cast<int>(cost.rows()), columns = static_cast<int>(cost.cols());
     Assignment result;
@@ -46,8 +47,8 @@ Assignment optimalAssignment(const Eigen::MatrixXd& cost) {
 
     // The solver adds up (largest arc cost) x (number of nodes): that must stay below 2^62.
     const int most_pairs = std::min(rows, columns);
-    const double largest = std::min(std::exp2(50), std::floor(std::exp2(60) / (most_pairs + 1.0) /
-                                                              (rows + columns + 1.0)));
+    const double largest =
+        std::min(std::exp2(50), std::floor(std::exp2(60) / (most_pairs + 1.0) / (rows + columns + 1.0)));
     const double scale = high > low ? largest / (high - low) : 0.0;
     const auto alone = static_cast<std::int64_t>(largest) * (most_pairs + 1);
 

@@ -14,15 +14,15 @@ namespace slamot::eval {
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-/// A squared error weighted by its inverse covariance, and the number of dimensions it was taken on: those with
-/// variance. A value of chi-square law of that many degrees of freedom if the covariance is right.
+/// A squared error weighted by its inverse covariance, and the number of dimensions it was taken on: those
+/// with variance. A value of chi-square law of that many degrees of freedom if the covariance is right.
 struct SquaredError {
     double value = 0;
     int dimension = 0;
 };
 
-/// e' P^+ e, never divided by the dimension. A coordinate of zero variance is known exactly and left out, and so is
-/// a direction whose variance is below 1e-12 of the largest once P is scaled to a correlation matrix.
+/// e' P^+ e, never divided by the dimension. A coordinate of zero variance is known exactly and left out, and
+/// so is a direction whose variance is below 1e-12 of the largest once P is scaled to a correlation matrix.
 SquaredError nees(const SmallVector& error, const SmallMatrix& covariance);
 
 struct NeesStep {
@@ -39,18 +39,18 @@ struct Band {
 /// The value that a chi-square variable stays below with `probability`.
 double chiSquareQuantile(double probability, double degrees);
 
-/// Two-sided: `probability` inside, equal parts below and above, for the mean of `count` values whose degrees of
-/// freedom add up to `total_degrees`.
+/// Two-sided: `probability` inside, equal parts below and above, for the mean of `count` values whose degrees
+/// of freedom add up to `total_degrees`.
 Band chiSquareBand(double probability, double total_degrees, double count = 1);
 
 /// Bands and quantiles of one probability, each computed once.
 class ChiSquareTable {
-   public:
+  public:
     explicit ChiSquareTable(double probability) : probability_(probability) {}
     const Band& band(int dimension);
     double quantile(int dimension);
 
-   private:
+  private:
     double probability_;
     std::map<int, Band> bands_;
     std::map<int, double> quantiles_;

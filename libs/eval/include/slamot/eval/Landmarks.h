@@ -18,6 +18,7 @@ struct LandmarkErrors {
     Measured<NeesSummary> nees;
 };
 
-Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth, const EvaluationOptions& options);
+Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth,
+                                        const EvaluationOptions& options);
 
 }  // namespace slamot::eval

@@ -8,7 +8,7 @@ namespace slamot::eval {
 /// A metric, or the sentence that says why there is none.
 template <class T>
 class Measured {
-   public:
+  public:
     Measured() : why_absent_("not evaluated") {}
     // Implicit on purpose: a function that computes a metric returns it as it is.
     Measured(T value) : value_(std::move(value)) {}
@@ -25,7 +25,7 @@ class Measured {
     /// Empty when there is a value.
     const std::string& whyAbsent() const { return why_absent_; }
 
-   private:
+  private:
     std::optional<T> value_;
     std::string why_absent_;
 };

@@ -33,8 +33,8 @@ Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptio
 /// NEES of the robot's pose, step by step: what consistencyOverRuns takes.
 NeesSeries robotNees(const std::vector<PosePair>& pairs);
 
-/// For summary.json: metres, seconds, radians. Numbers that do not exist are null; metrics that do not are listed
-/// under `absent` with the reason.
+/// For summary.json: metres, seconds, radians. Numbers that do not exist are null; metrics that do not are
+/// listed under `absent` with the reason.
 nlohmann::json toJson(const Metrics& metrics);
 
 /// For the terminal: plain text of at most 80 columns, angles in degrees.

@@ -3,7 +3,8 @@
 
 namespace slamot::eval {
 
-/// How the estimated trajectory is brought into the truth's frame before the absolute trajectory error is taken.
+/// How the estimated trajectory is brought into the truth's frame before the absolute trajectory error is
+/// taken.
 enum class Alignment {
     none,
     se2,         ///< the rotation and shift of least squares over all positions, no scale

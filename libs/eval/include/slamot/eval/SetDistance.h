@@ -18,8 +18,8 @@ struct Ospa {
     double total = 0, localisation = 0, cardinality = 0;
 };
 
-/// Rahmathullah, Garcia-Fernandez and Svensson 2017 with alpha = 2. `total` in metres; total^p is the sum of the
-/// parts, in metres^p.
+/// Rahmathullah, Garcia-Fernandez and Svensson 2017 with alpha = 2. `total` in metres; total^p is the sum of
+/// the parts, in metres^p.
 struct Gospa {
     double total = 0, localisation_part = 0, missed_part = 0, false_part = 0;
     double matched_count = 0, missed_count = 0, false_count = 0;

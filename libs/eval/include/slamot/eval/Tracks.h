@@ -15,8 +15,8 @@ namespace slamot::eval {
 struct TargetErrors {
     /// In the world frame [m, m/s].
     ErrorSummary position, velocity;
-    /// As the robot sees it: the target in the estimated robot's frame against the true target in the true robot's
-    /// frame. Empty where the robot has no truth.
+    /// As the robot sees it: the target in the estimated robot's frame against the true target in the true
+    /// robot's frame. Empty where the robot has no truth.
     ErrorSummary relative_position, relative_velocity;
     /// Of the position in the world, 2 dimensions.
     Measured<NeesSummary> nees;
@@ -25,8 +25,8 @@ struct TargetErrors {
 struct TargetMetrics {
     /// Pairs of a track and a truth over all stamps.
     std::int64_t matched = 0;
-    /// Tracks by stamp that have no source id; whose target has no truth at that stamp; that are a second track of
-    /// the same target (of several the one of highest existence counts).
+    /// Tracks by stamp that have no source id; whose target has no truth at that stamp; that are a second
+    /// track of the same target (of several the one of highest existence counts).
     std::int64_t without_source = 0, without_truth = 0, doubled = 0;
     /// True targets by stamp that no track claims.
     std::int64_t missed = 0;
@@ -36,6 +36,7 @@ struct TargetMetrics {
     std::map<SourceId, TargetErrors> by_target;
 };
 
-Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth, const EvaluationOptions& options);
+Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth,
+                                      const EvaluationOptions& options);
 
 }  // namespace slamot::eval

@@ -17,13 +17,13 @@ struct Assignment {
     double cost = 0;
 };
 
-/// Of the assignments with the most pairs, one of least total cost, for a matrix of any shape with finite costs of
-/// either sign or `forbidden_pair`. To let a row stay alone at a price, add a column for it. Deterministic: the
-/// same matrix gives the same assignment, ties included.
+/// Of the assignments with the most pairs, one of least total cost, for a matrix of any shape with finite
+/// costs of either sign or `forbidden_pair`. To let a row stay alone at a price, add a column for it.
+/// Deterministic: the same matrix gives the same assignment, ties included.
 ///
 /// Costs are rounded to integers for the solver, in steps of at most (largest - smallest cost) times
-/// max(2^-50, 2^-60 (min(rows, columns) + 1) (rows + columns + 1)): the result is optimal up to `pairs` steps.
-/// Throws std::invalid_argument for a cost that is NaN or -infinity.
+/// max(2^-50, 2^-60 (min(rows, columns) + 1) (rows + columns + 1)): the result is optimal up to `pairs`
+/// steps. Throws std::invalid_argument for a cost that is NaN or -infinity.
 Assignment optimalAssignment(const Eigen::MatrixXd& cost);
 
 }  // namespace slamot
