@@ -28,7 +28,7 @@ struct TargetModel {
     /// over dt equal to two over dt/2.
     double noise_interval = 0;
     double turn_rate = 0;          ///< [rad/s], ct
-    double turn_rate_std = 0.2;    ///< [rad/s], unicycle: change of turn rate over noise_interval (or a step)
+    double turn_rate_std = radians(10.0);    ///< [rad/s], unicycle: change of turn rate over noise_interval (or a step)
 
     std::string name() const;
 };

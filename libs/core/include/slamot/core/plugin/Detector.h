@@ -30,6 +30,8 @@ class Detector : public mrpt::rtti::CObject, public mrpt::system::COutputLogger 
 
    public:
     ~Detector() override;
+    Detector(const Detector&) = delete;
+    Detector& operator=(const Detector&) = delete;
 
     virtual std::string name() const = 0;
     virtual std::vector<ParameterTable> parameterTables() = 0;

@@ -49,6 +49,9 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
 
    public:
     ~Estimator() override;
+    /// Not copyable: MRPT's clone() says so too.
+    Estimator(const Estimator&) = delete;
+    Estimator& operator=(const Estimator&) = delete;
 
     /// The plugin's name: its section in configs, its folder, its config file.
     virtual std::string name() const = 0;

@@ -1,0 +1,179 @@
+#include "slamot/core/config/Config.h"
+
+#include <fmt/format.h>
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace slamot {
+namespace {
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool startsWith(const std::string& text, const std::string& prefix) {
+    return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+/// Where every section and key of an INI text stands. MRPT's reader forgets lines and keeps the last of doubled
+/// keys, so this scan finds the places and the doubles; the values come from MRPT.
+struct Places {
+    std::map<std::string, int> sections;
+    std::map<std::string, std::map<std::string, int>> keys;
+};
+
+Places scan(const std::string& text, const std::string& name) {
+    Places places;
+    std::istringstream lines(text);
+    std::string raw, section;
+    bool continued = false;
+    for (int number = 1; std::getline(lines, raw); ++number) {
+        const std::string line = trimmed(raw);
+        const bool continues_before = continued;
+        continued = !line.empty() && line.back() == '\\';
+        if (continues_before || line.empty() || line[0] == '#' || line[0] == ';' || line[0] == '@' ||
+            startsWith(line, "//"))
+            continue;
+        if (line[0] == '[') {
+            const auto close = line.find(']');
+            const std::string rest = close == std::string::npos ? "" : trimmed(line.substr(close + 1));
+            if (close == std::string::npos || close == 1 || !(rest.empty() || startsWith(rest, "//") || rest[0] == ';'))
+                throw ConfigError(fmt::format("{}:{}: '{}' is no section header, expected [name]", name, number, line));
+            section = line.substr(1, close - 1);
+            if (const auto [at, is_new] = places.sections.emplace(section, number); !is_new)
+                throw ConfigError(fmt::format("{}:{}: section [{}] is there twice, first at line {}", name, number,
+                                              section, at->second));
+            continue;
+        }
+        const auto equals = line.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw ConfigError(
+                fmt::format("{}:{}: '{}' is no setting, expected key = value", name, number, line));
+        if (section.empty())
+            throw ConfigError(
+                fmt::format("{}:{}: '{}' stands before any section, expected [name] first", name, number, line));
+        const std::string key = trimmed(line.substr(0, equals));
+        if (const auto [at, is_new] = places.keys[section].emplace(key, number); !is_new)
+            throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name, number,
+                                          key, section, at->second));
+    }
+    return places;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {
+    const auto near = nearestWord(word, candidates);
+    return near ? fmt::format("; did you mean '{}'?", *near) : std::string();
+}
+
+}  // namespace
+
+Config Config::fromFile(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw ConfigError(fmt::format("{}: no such config file", path));
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw ConfigError(fmt::format("{}: the config file cannot be read, expected INI text", path));
+    Config config = fromText(text.str(), path);
+    const auto parent = std::filesystem::path(path).parent_path();
+    config.folder_ = parent.empty() ? "." : parent.string();
+    return config;
+}
+
+Config Config::fromText(const std::string& text, const std::string& name) {
+    if (text.find('\0') != std::string::npos)
+        throw ConfigError(fmt::format("{}: holds binary data, expected INI text", name));
+    const Places places = scan(text, name);
+    mrpt::config::CConfigFileMemory values;
+    try {
+        values.setContent(text);
+    } catch (const std::exception& error) {
+        throw ConfigError(fmt::format("{}: {}", name, error.what()));
+    }
+
+    Config config;
+    for (const auto& [section, line] : places.sections) {
+        config.sections_[section];
+        config.section_origins_[section] = fmt::format("{}:{}", name, line);
+    }
+    for (const auto& [section, keys] : places.keys)
+        for (const auto& [key, line] : keys)
+            config.set(section, key, values.read_string(section, key, ""), fmt::format("{}:{}", name, line));
+    return config;
+}
+
+void Config::set(const std::string& section, const std::string& key, const std::string& value,
+                 const std::string& origin) {
+    sections_[section][key] = {trimmed(value), origin};
+    section_origins_.emplace(section, origin);
+}
+
+void Config::setFromAssignment(const std::string& assignment) {
+    const auto equals = assignment.find('=');
+    const auto dot = equals == std::string::npos ? std::string::npos : assignment.rfind('.', equals);
+    if (dot == std::string::npos || dot == 0 || dot + 1 == equals)
+        throw ConfigError(fmt::format("--set {}: expected section.key=value", assignment));
+    set(trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equals - dot - 1)),
+        assignment.substr(equals + 1), "--set " + assignment);
+}
+
+const Config::Section& Config::section(const std::string& name) const {
+    static const Section none;
+    const auto found = sections_.find(name);
+    return found == sections_.end() ? none : found->second;
+}
+
+std::vector<std::string> Config::sectionNames() const {
+    std::vector<std::string> names;
+    for (const auto& [name, section] : sections_) names.push_back(name);
+    return names;
+}
+
+std::string Config::origin(const std::string& section) const {
+    const auto found = section_origins_.find(section);
+    return found == section_origins_.end() ? "config" : found->second;
+}
+
+std::string Config::canonicalText() const {
+    std::string text;
+    for (const auto& [name, section] : sections_) {
+        text += "[" + name + "]\n";
+        for (const auto& [key, entry] : section) text += key + " = " + entry.value + "\n";
+    }
+    return text;
+}
+
+void load(const ParameterTable& table, const Config& config) {
+    std::vector<std::string> known;
+    for (const auto& parameter : table.parameters()) known.push_back(parameter.key);
+    for (const auto& [key, entry] : config.section(table.section())) {
+        const Parameter* parameter = table.find(key);
+        if (!parameter)
+            throw ConfigError(fmt::format("{}: unknown key '{}' in [{}]{}", entry.origin, key, table.section(),
+                                          didYouMean(key, known)));
+        if (const auto expected = parameter->parse(entry.value))
+            throw ConfigError(fmt::format("{}: {} = '{}' in [{}], expected {}", entry.origin, key, entry.value,
+                                          table.section(), *expected));
+    }
+}
+
+void requireKnownSections(const Config& config, const std::vector<std::string>& known,
+                          const std::vector<std::string>& open_prefixes) {
+    for (const auto& name : config.sectionNames()) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        if (std::any_of(open_prefixes.begin(), open_prefixes.end(),
+                        [&](const std::string& prefix) { return startsWith(name, prefix); }))
+            continue;
+        throw ConfigError(
+            fmt::format("{}: unknown section [{}]{}", config.origin(name), name, didYouMean(name, known)));
+    }
+}
+
+}  // namespace slamot

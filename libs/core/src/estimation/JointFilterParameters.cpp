@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <sstream>
+
+#include "slamot/core/estimation/JointFilter.h"
+
+namespace slamot {
+namespace {
+
+const std::string schedule_expected =
+    "'none' or time:model[:noise_std] entries separated by commas, in rising time, e.g. 15:ca:1.8";
+
+std::string scheduleText(const std::vector<ModelChange>& schedule) {
+    std::string text;
+    for (const ModelChange& change : schedule)
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after), change.model.name(),
+                            shortestText(change.model.noise_std));
+    return text.empty() ? "none" : text;
+}
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) {
+        const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
+        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+    }
+    return parts;
+}
+
+/// Reads a schedule; the parts of a model that are not named keep their defaults.
+std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text) {
+    std::vector<ModelChange> schedule;
+    if (text == "none" || text.empty()) return schedule;
+    for (const std::string& entry : splitAt(text, ',')) {
+        const auto parts = splitAt(entry, ':');
+        if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
+        ModelChange change;
+        ParameterTable model("schedule", "");
+        describe(change.model, model);
+        const auto after = numberFromText(parts[0]);
+        if (!after || *after < 0 || (!schedule.empty() && *after <= schedule.back().after)) return std::nullopt;
+        change.after = *after;
+        if (model.find("model")->parse(parts[1])) return std::nullopt;
+        if (parts.size() == 3 && model.find("noise_std")->parse(parts[2])) return std::nullopt;
+        schedule.push_back(change);
+    }
+    return schedule;
+}
+
+}  // namespace
+
+std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name, const std::string& about) {
+    ParameterTable filter(name, about);
+    filter.choice("consistency", p.consistency,
+                  {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
+                  "invariant: covariance transported along updates, second-order range terms; classic: the textbook "
+                  "EKF, which grows over-confident.");
+
+    ParameterTable outliers(name + ".outliers", "What happens to detections whose innovation is unlikely.");
+    outliers
+        .choice("treatment", p.outliers,
+                {{"inflate", OutlierTreatment::inflate},
+                 {"reject", OutlierTreatment::reject},
+                 {"accept", OutlierTreatment::accept}},
+                "inflate: noise times (NIS / gate)^2; reject: not used; accept: used as if nothing were odd.")
+        .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
+              "Part of good detections that lie inside the gate.");
+
+    ParameterTable target(name + ".target", "Motion and life of tracks.");
+    describe(p.target, target);
+    target
+        .custom({"schedule", "s", schedule_expected,
+                 "Changes of the model at known times since the start, for all movers: a filter that is told the mode.",
+                 [&p](const std::string& text) -> std::optional<std::string> {
+                     auto schedule = scheduleFromText(text);
+                     if (!schedule) return schedule_expected;
+                     p.target_schedule = std::move(*schedule);
+                     return std::nullopt;
+                 },
+                 [&p] { return scheduleText(p.target_schedule); }})
+        .real("velocity_std", p.target_velocity_std, "m/s", Interval::positive(),
+              "Prior of each velocity component at first sight.")
+        .real("acceleration_std", p.target_acceleration_std, "m/s^2", Interval::nonNegative(),
+              "Prior of each acceleration component at first sight.")
+        .real("max_unseen", p.target_max_unseen, "s", Interval::positive(),
+              "A track not seen for longer ends; inf keeps it.");
+    return {filter, outliers, target};
+}
+
+}  // namespace slamot

@@ -1,0 +1,138 @@
+#include "slamot/core/plugin/Estimator.h"
+
+#include <fmt/format.h>
+
+#include "slamot/core/estimation/Definiteness.h"
+
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Estimator, mrpt::rtti::CObject, slamot)
+
+namespace slamot {
+namespace {
+
+bool finite(const Pose2& pose) {
+    return pose.vector().allFinite();
+}
+
+std::string why(const RangeBearingDetection& d, std::size_t sensors) {
+    if (!d.z().allFinite()) return "is not finite";
+    if (d.range <= 0) return "has a range that is not positive";
+    if (!isPositiveDefinite(d.covariance)) return "has a covariance that is not positive definite";
+    if (d.sensor < 0 || static_cast<std::size_t>(d.sensor) >= sensors) return "names no sensor of its set";
+    return {};
+}
+
+}  // namespace
+
+Estimator::Estimator() : COutputLogger("Estimator") {}
+Estimator::~Estimator() = default;
+
+std::vector<ParameterTable> Estimator::parameterTables() {
+    return onParameters();
+}
+
+void Estimator::initialize(const Config& config) {
+    setLoggerName(name());
+    for (const ParameterTable& table : onParameters()) load(table, config);
+    onInitialize();
+    initialized_ = true;
+    started_ = false;
+}
+
+void Estimator::start(const Start& start) {
+    if (!initialized_) throw EstimatorError(name() + ": start before initialize");
+    if (!finite(start.pose.mean) || !isPositiveSemidefinite(start.pose.covariance, definiteness_tolerance))
+        throw EstimatorError(name() + ": the start pose is not finite or its covariance not positive semi-definite");
+    start_ = start;
+    now_ = start.stamp;
+    health_ = {};
+    onStart(start);
+    started_ = true;
+}
+
+void Estimator::requireStarted(const char* what) const {
+    if (!started_) throw EstimatorError(fmt::format("{}: {} before start", name(), what));
+}
+
+void Estimator::predict(const OdometryIncrement& odometry) {
+    requireStarted("predict");
+    if (odometry.t1 < odometry.t0 || odometry.t0 < now_)
+        throw TimeOrderError(fmt::format("{}: odometry over ({}, {}] cannot follow time {}", name(),
+                                         toText(odometry.t0), toText(odometry.t1), toText(now_)));
+    if (odometry.t0 != now_)
+        throw TimeOrderError(fmt::format("{}: odometry starts at {}, after the present time {}: a gap", name(),
+                                         toText(odometry.t0), toText(now_)));
+    const auto& v = odometry.velocity;
+    if (!finite(odometry.increment) || (v && !(std::isfinite(v->vx) && std::isfinite(v->vy) && std::isfinite(v->omega))))
+        throw EstimatorError(fmt::format("{}: odometry at {} is not finite", name(), toText(odometry.t1)));
+    if (odometry.covariance && !isPositiveSemidefinite(*odometry.covariance, definiteness_tolerance))
+        throw EstimatorError(fmt::format("{}: odometry at {} has a covariance that is not positive semi-definite",
+                                         name(), toText(odometry.t1)));
+    onPredict(odometry);
+    now_ = odometry.t1;
+    ++health_.predictions;
+    checkState("predict");
+}
+
+UpdateReport Estimator::update(const DetectionSet& detections) {
+    requireStarted("update");
+    if (detections.stamp != now_)
+        throw TimeOrderError(fmt::format("{}: detections of {} at time {}", name(), toText(detections.stamp),
+                                         toText(now_)));
+    const RangeBearingSet& set = detections.rangeBearing();
+    for (std::size_t i = 0; i < set.detections.size(); ++i)
+        if (const std::string reason = why(set.detections[i], set.sensors.size()); !reason.empty())
+            throw EstimatorError(
+                fmt::format("{}: detection {} at {} {}", name(), i, toText(detections.stamp), reason));
+
+    UpdateReport report;
+    try {
+        report = onUpdate(detections);
+    } catch (const std::domain_error& error) {
+        throw EstimatorError(fmt::format("{}: update at {}: {}", name(), toText(now_), error.what()));
+    }
+    ++health_.updates;
+    for (const Innovation& innovation : report.innovations) switch (innovation.outcome) {
+            case Outcome::updated:
+            case Outcome::initiated: ++health_.detections_used; break;
+            case Outcome::inflated: ++health_.detections_inflated; break;
+            case Outcome::rejected: ++health_.detections_rejected; break;
+            case Outcome::ignored: ++health_.detections_ignored; break;
+        }
+    checkState("update");
+    return report;
+}
+
+void Estimator::checkState(const char* after) const {
+    const PoseGaussian pose = onRobot();
+    if (!finite(pose.mean) || !isPositiveSemidefinite(pose.covariance, definiteness_tolerance))
+        throw EstimatorError(
+            fmt::format("{}: after {} at {} the robot's pose is not finite or its covariance [x y theta] not positive "
+                        "semi-definite",
+                        name(), after, toText(now_)));
+    for (const TrackEstimate& track : onTracks())
+        if (!track.mean.allFinite() || !isPositiveSemidefinite(track.covariance, definiteness_tolerance))
+            throw EstimatorError(
+                fmt::format("{}: after {} at {} track {} is not finite or its covariance not positive semi-definite",
+                            name(), after, toText(now_), track.id.value));
+#ifndef NDEBUG
+    if (!isPositiveSemidefinite(onJointCovariance().matrix, definiteness_tolerance))
+        throw EstimatorError(fmt::format("{}: after {} at {} the joint covariance is not positive semi-definite",
+                                         name(), after, toText(now_)));
+#endif
+}
+
+Estimate Estimator::estimate() const {
+    requireStarted("estimate");
+    return {now_, onRobot(), onTracks(), health_};
+}
+
+std::vector<LandmarkEstimate> Estimator::onLandmarks(const std::vector<LandmarkId>& ids) const {
+    std::vector<LandmarkEstimate> out;
+    const auto all = onLandmarks();
+    for (const LandmarkId id : ids)
+        for (const LandmarkEstimate& landmark : all)
+            if (landmark.id == id) out.push_back(landmark);
+    return out;
+}
+
+}  // namespace slamot
