@@ -86,22 +86,24 @@ AxisView axisView(const Axis& axis, Extent extent, double pixels, std::optional<
     const auto unwarp = [&](double v) { return axis.logarithmic ? std::pow(10, v) : v; };
     double low = warp(extent.low), high = warp(extent.high);
     // A single value gets room around it: a third of a decade, or a tenth of itself.
-    const double least = axis.logarithmic ? 0.3 : std::max(0.1 * std::max(std::abs(low), std::abs(high)), 1e-9);
+    const double least =
+        axis.logarithmic ? 0.3 : std::max(0.1 * std::max(std::abs(low), std::abs(high)), 1e-9);
     const bool flat = high - low < 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
     const double pad = flat ? least : axis.padding * (high - low);
     low -= unpadded && *unpadded == extent.low ? 0 : pad;
     high += unpadded && *unpadded == extent.high ? 0 : pad;
     AxisView view{axis.min.value_or(unwarp(low)), axis.max.value_or(unwarp(high)), axis.logarithmic, pixels};
     if (!(view.low < view.high)) {  // an end that was given lies beyond the data
-        (axis.max ? view.low : view.high) = axis.max ? unwarp(warp(view.high) - 1) : unwarp(warp(view.low) + 1);
+        (axis.max ? view.low : view.high) =
+            axis.max ? unwarp(warp(view.high) - 1) : unwarp(warp(view.low) + 1);
     }
     return view;
 }
 
 /// Widens the axis that has more pixels per metre, about its middle.
 void equaliseAspect(PanelView& view) {
-    const double metres_per_pixel = std::max((view.x.high - view.x.low) / view.x.pixels,
-                                             (view.y.high - view.y.low) / view.y.pixels);
+    const double metres_per_pixel =
+        std::max((view.x.high - view.x.low) / view.x.pixels, (view.y.high - view.y.low) / view.y.pixels);
     for (AxisView* axis : {&view.x, &view.y}) {
         const double middle = (axis->low + axis->high) / 2, half = metres_per_pixel * axis->pixels / 2;
         axis->low = middle - half;

@@ -63,8 +63,10 @@ MapView mapView(const Points2& ways, const Points2& objects) {
     const double least = std::max(1.0, 0.05 * box.sizes().maxCoeff()) / 2;
     view.low = box.center() - (box.sizes() / 2).cwiseMax(least);
     view.high = box.center() + (box.sizes() / 2).cwiseMax(least);
-    view.outside = static_cast<std::size_t>(std::count_if(
-        things.begin(), things.end(), [&](const Eigen::Vector2d& p) { return !Box(view.low, view.high).contains(p); }));
+    view.outside =
+        static_cast<std::size_t>(std::count_if(things.begin(), things.end(), [&](const Eigen::Vector2d& p) {
+            return !Box(view.low, view.high).contains(p);
+        }));
     return view;
 }
 
