@@ -105,6 +105,28 @@ TEST(FigureSpec, equalAspect) {
     EXPECT_NEAR((y[0].get<double>() + y[1].get<double>()) / 2, 5, 1e-12);  // data stay in the middle
 }
 
+TEST(FigureSpec, aFlatLineHasRoomAroundIt) {
+    const auto domain = [](double value, std::optional<double> min) {
+        Figure figure = withLayers({Line{"", {{0, value}, {1, value}}}});
+        figure.panels[0].y.min = min;
+        return domainOf(markNamed(figureSpec(figure), "panel_0"), "y");
+    };
+    EXPECT_EQ(domain(0, {}), json({-1.0, 1.0}));
+    EXPECT_EQ(domain(10, {}), json({9.0, 11.0}));
+    EXPECT_EQ(domain(0, 0.0), json({0.0, 1.0}));
+    EXPECT_EQ(domain(-5, 0.0)[0], 0.0);  // the given end lies beyond the data
+    EXPECT_GT(domain(-5, 0.0)[1].get<double>(), 0);
+    Figure bars = withLayers({Bars{"", {{0, 1, 0}}}});
+    EXPECT_EQ(domainOf(markNamed(figureSpec(bars), "panel_0"), "y"), json({-1.0, 1.0}));
+}
+
+TEST(FigureSpec, anAxisThatFallsIsRefused) {
+    Figure figure = withLayers({});
+    figure.panels[0].y.min = 2;
+    figure.panels[0].y.max = 1;
+    EXPECT_THROW(figureSpec(figure), std::invalid_argument);
+}
+
 TEST(FigureSpec, ellipsesAreClosedOutlinesAtThreeSigma) {
     GaussianPoint a, b;
     a.covariance << 1, 0.3, 0.3, 0.5;
