@@ -137,6 +137,14 @@ TEST(OverviewView, ordinaryLandmarksAllStayInView) {
     EXPECT_NEAR(view.high.y(), 12, 1e-12);
 }
 
+TEST(OverviewView, whatDefinesTheViewLiesWithinIt) {
+    // 0.1 and 0.7 have no exact middle: a view made from the middle and half the size could miss its own
+    // corners.
+    for (int i = 1; i < 50; ++i) {
+        EXPECT_EQ(mapView({}, {{0.1 * i, -0.3 * i}, {70.7 * i, 90.1 * i}}).outside, 0u) << i;
+    }
+}
+
 TEST(OverviewView, aStandingRobotHasRoomAroundIt) {
     const MapView view = mapView({{2, 3}, {2, 3}}, {});
     EXPECT_EQ(view.low, Eigen::Vector2d(1.5, 2.5));

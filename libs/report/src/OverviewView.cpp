@@ -63,8 +63,8 @@ MapView mapView(const Points2& ways, const Points2& objects) {
     }
     // A standing robot without a map still gets a metre around it.
     const double least = std::max(1.0, 0.05 * box.sizes().maxCoeff()) / 2;
-    view.low = box.center() - (box.sizes() / 2).cwiseMax(least);
-    view.high = box.center() + (box.sizes() / 2).cwiseMax(least);
+    view.low = box.min().cwiseMin((box.center().array() - least).matrix());
+    view.high = box.max().cwiseMax((box.center().array() + least).matrix());
     view.outside =
         static_cast<std::size_t>(std::count_if(things.begin(), things.end(), [&](const Eigen::Vector2d& p) {
             return !Box(view.low, view.high).contains(p);
