@@ -16,7 +16,8 @@ std::optional<Stamp> usableStamp(mrpt::Clock::time_point time) {
 std::optional<Stamp> ActionFrame::stamp() const {
     if (observations)
         for (const auto& observation : *observations)
-            if (const auto stamp = observation ? usableStamp(observation->timestamp) : std::nullopt) return stamp;
+            if (const auto stamp = observation ? usableStamp(observation->timestamp) : std::nullopt)
+                return stamp;
     if (action)
         for (const auto& movement : *action)
             if (const auto stamp = usableStamp(movement->timestamp)) return stamp;

@@ -25,18 +25,18 @@ std::optional<Stamp> usableStamp(mrpt::Clock::time_point time);
 
 /// Pairs every action with the sensory frame that follows it, as MRPT does.
 class FramePairer {
-   public:
+  public:
     /// Takes an action collection or a sensory frame; gives a frame when one is complete.
     std::optional<ActionFrame> add(const LogObject& object);
     /// The action left over at the end of the log.
     std::optional<ActionFrame> flush();
 
-   private:
+  private:
     std::optional<ActionFrame> pending_;
 };
 
-/// Whether the stamps of an action-frame log can be used: all valid, rising, and at least 1 ms a frame on average.
-/// Reads the file once from start to end.
+/// Whether the stamps of an action-frame log can be used: all valid, rising, and at least 1 ms a frame on
+/// average. Reads the file once from start to end.
 bool frameStampsUsable(const std::string& file);
 
 }  // namespace slamot

@@ -45,8 +45,8 @@ OdometryReading fromMrpt(const mrpt::obs::CObservationOdometry& odometry) {
     const auto& v = odometry.velocityLocal;
     const bool pose_finite = allFinite({reading.pose.x, reading.pose.y, reading.pose.theta});
     if (!pose_finite || (odometry.hasVelocities && !allFinite({v.vx, v.vy, v.omega})))
-        throw LogError(fmt::format("odometry '{}' at t = {} is not finite, expected numbers", odometry.sensorLabel,
-                                   toText(reading.stamp)));
+        throw LogError(fmt::format("odometry '{}' at t = {} is not finite, expected numbers",
+                                   odometry.sensorLabel, toText(reading.stamp)));
     if (odometry.hasVelocities) reading.velocity = BodyVelocity{v.vx, v.vy, v.omega};
     return reading;
 }
@@ -68,13 +68,15 @@ OdometryIncrement fromMrpt(const mrpt::obs::CActionRobotMovement2D& action) {
     increment.increment =
         toPose2(odometry ? action.rawOdometryIncrementReading : action.poseChange->getMeanVal());
     // Thrun's model is drawn afresh with each reading of the log: no covariance that two runs would agree on.
-    const bool sampled = odometry && action.motionModelConfiguration.modelSelection == CActionRobotMovement2D::mmThrun;
+    const bool sampled =
+        odometry && action.motionModelConfiguration.modelSelection == CActionRobotMovement2D::mmThrun;
     if (!sampled) increment.covariance = action.poseChange->getCovariance().asEigen();
     const auto& v = action.velocityLocal;
     if (action.hasVelocities) increment.velocity = BodyVelocity{v.vx, v.vy, v.omega};
 
     const Pose2& pose = increment.increment;
-    if (!allFinite({pose.x, pose.y, pose.theta}) || (increment.covariance && !increment.covariance->allFinite()) ||
+    if (!allFinite({pose.x, pose.y, pose.theta}) ||
+        (increment.covariance && !increment.covariance->allFinite()) ||
         (increment.velocity && !allFinite({v.vx, v.vy, v.omega})))
         throw LogError("the odometry of an action is not finite, expected numbers");
     return increment;
@@ -87,7 +89,8 @@ RangeBearingReading fromMrpt(const mrpt::obs::CObservationBearingRange& observat
         throw LogError(fmt::format("sensor '{}' at t = {} {}, expected a planar range-bearing sensor",
                                    observation.sensorLabel, toText(stamp), what));
     };
-    if (!allFinite({sensor.x(), sensor.y(), sensor.yaw()})) refuse("has a pose on the robot that is not finite");
+    if (!allFinite({sensor.x(), sensor.y(), sensor.yaw()}))
+        refuse("has a pose on the robot that is not finite");
     if (std::abs(sensor.pitch()) > largest_tilt || std::abs(wrapAngle(sensor.roll())) > largest_tilt)
         refuse("is tilted by more than a degree");
 
@@ -131,13 +134,15 @@ mrpt::obs::CObservationBearingRange::Ptr toMrpt(const RangeBearingReading& readi
     const Matrix2 claim = diagonal(observation->sensor_std_range, observation->sensor_std_yaw);
     observation->validCovariances = false;
     for (const auto& item : reading.items)
-        if (!item.covariance.isZero(0) && item.covariance != claim && item.covariance != diagonal(std_range, std_bearing))
+        if (!item.covariance.isZero(0) && item.covariance != claim &&
+            item.covariance != diagonal(std_range, std_bearing))
             observation->validCovariances = true;
 
     for (const auto& item : reading.items) {
         if (item.id.value > std::numeric_limits<std::int32_t>::max())
-            throw LogError(fmt::format("id {} of a detection by '{}' is too large, MRPT's logs hold at most {}",
-                                       item.id.value, reading.sensor.label, std::numeric_limits<std::int32_t>::max()));
+            throw LogError(
+                fmt::format("id {} of a detection by '{}' is too large, MRPT's logs hold at most {}",
+                            item.id.value, reading.sensor.label, std::numeric_limits<std::int32_t>::max()));
         mrpt::obs::CObservationBearingRange::TMeasurement measurement;
         measurement.range = static_cast<float>(item.range);
         measurement.yaw = static_cast<float>(item.bearing);

@@ -43,7 +43,8 @@ CsvReader::CsvReader(const std::string& file) : file_(file), in_(file) {
         throw LogError(fmt::format("{}: cannot be opened, expected a CSV table", file));
     std::string line;
     if (!std::getline(in_, line) || line.empty() || line == "\r")
-        throw LogError(fmt::format("{}:1: the header row is missing, expected the names of the columns", file));
+        throw LogError(
+            fmt::format("{}:1: the header row is missing, expected the names of the columns", file));
     removeCarriageReturn(line);
     header_ = splitAtCommas(line);
     line_ = 1;
@@ -72,8 +73,8 @@ bool CsvReader::next() {
     fields_ = splitAtCommas(line);
     if (fields_.size() == header_.size()) return true;
     if (unfinished) return false;
-    throw LogError(
-        fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_, fields_.size(), header_.size()));
+    throw LogError(fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_,
+                               fields_.size(), header_.size()));
 }
 
 bool CsvReader::empty(int column) const {

@@ -28,9 +28,11 @@ GzReader::GzReader(const std::string& file) {
         throw LogError(fmt::format("{}: is no regular file, expected a rawlog", file));
     file_.reset(std::fopen(file.c_str(), "rb"));
     if (!file_)
-        throw LogError(fmt::format("{}: cannot be opened ({}), expected a rawlog", file, std::strerror(errno)));
+        throw LogError(
+            fmt::format("{}: cannot be opened ({}), expected a rawlog", file, std::strerror(errno)));
     file_size_ = std::filesystem::file_size(file, error);
-    if (error || file_size_ == 0) throw LogError(fmt::format("{}: the file is empty, expected a rawlog", file));
+    if (error || file_size_ == 0)
+        throw LogError(fmt::format("{}: the file is empty, expected a rawlog", file));
 
     unsigned char magic[2] = {};
     const std::size_t got = std::fread(magic, 1, 2, file_.get());
@@ -52,7 +54,8 @@ void GzReader::finish(BytesEnd end, const std::string& trouble) {
 }
 
 double GzReader::progress() const {
-    return std::min(1.0, static_cast<double>(file_read_ - inflater_.avail_in) / static_cast<double>(file_size_));
+    return std::min(1.0,
+                    static_cast<double>(file_read_ - inflater_.avail_in) / static_cast<double>(file_size_));
 }
 
 std::string_view GzReader::peek(std::size_t count) {
@@ -128,8 +131,8 @@ void GzReader::inflateSome() {
     if (result == Z_STREAM_END)
         between_members_ = true;
     else if (result != Z_OK && result != Z_BUF_ERROR)
-        finish(BytesEnd::corrupt,
-               fmt::format("the compressed data are damaged ({})", inflater_.msg ? inflater_.msg : "zlib error"));
+        finish(BytesEnd::corrupt, fmt::format("the compressed data are damaged ({})",
+                                              inflater_.msg ? inflater_.msg : "zlib error"));
 }
 
 std::size_t GzReader::Write(const void*, std::size_t) {

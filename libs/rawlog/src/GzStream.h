@@ -1,6 +1,6 @@
 #pragma once
-// Byte streams under a rawlog. MRPT's own gz streams cannot tell the end of a file from a broken one and do not say
-// when a checksum is wrong, so these stand on zlib directly.
+// Byte streams under a rawlog. MRPT's own gz streams cannot tell the end of a file from a broken one and do
+// not say when a checksum is wrong, so these stand on zlib directly.
 #include <mrpt/io/CStream.h>
 #include <zlib.h>
 
@@ -18,7 +18,7 @@ enum class BytesEnd { not_yet, clean, truncated, corrupt };
 
 /// Reads a gz-compressed or a plain file front to back.
 class GzReader : public mrpt::io::CStream {
-   public:
+  public:
     /// Throws LogError for a file that is missing, no regular file, or empty.
     explicit GzReader(const std::string& file);
     ~GzReader() override;
@@ -45,7 +45,7 @@ class GzReader : public mrpt::io::CStream {
     std::uint64_t Seek(std::int64_t, TSeekOrigin) override;
     std::uint64_t getTotalBytesCount() const override { return file_size_; }
 
-   private:
+  private:
     bool fill();
     void inflateSome();
     void finish(BytesEnd end, const std::string& trouble);
@@ -60,13 +60,13 @@ class GzReader : public mrpt::io::CStream {
     std::string trouble_;
     z_stream inflater_{};
     std::vector<unsigned char> input_;
-    std::string output_;           ///< uncompressed bytes
+    std::string output_;            ///< uncompressed bytes
     std::size_t output_begin_ = 0;  ///< those before are taken
 };
 
 /// Writes a gz-compressed file. Throws LogError when the disk does not take it.
 class GzWriter : public mrpt::io::CStream {
-   public:
+  public:
     explicit GzWriter(const std::string& file);
     ~GzWriter() override;
     GzWriter(const GzWriter&) = delete;
@@ -80,7 +80,7 @@ class GzWriter : public mrpt::io::CStream {
     std::uint64_t getPosition() const override { return written_; }
     std::uint64_t getTotalBytesCount() const override { return written_; }
 
-   private:
+  private:
     std::string file_;
     gzFile handle_ = nullptr;
     std::uint64_t written_ = 0;

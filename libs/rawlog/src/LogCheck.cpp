@@ -16,7 +16,7 @@ std::string shortName(const char* class_name) {
 
 /// One row per class and label, in alphabetical order.
 class SensorTable {
-   public:
+  public:
     void add(const LogEntry& entry) {
         if (entry.increment) {
             SensorSummary& row = rowOf("CActionRobotMovement2D", "", entry.stamp);
@@ -36,13 +36,14 @@ class SensorTable {
         std::vector<SensorSummary> rows;
         for (const auto& [key, row] : rows_) {
             rows.push_back(row);
-            const bool odometry = row.class_name == "CObservationOdometry" || row.class_name == "CActionRobotMovement2D";
+            const bool odometry =
+                row.class_name == "CObservationOdometry" || row.class_name == "CActionRobotMovement2D";
             rows.back().has_velocities = odometry && row.has_velocities;
         }
         return rows;
     }
 
-   private:
+  private:
     SensorSummary& rowOf(const std::string& class_name, const std::string& label, Stamp stamp) {
         SensorSummary& row = rows_[{class_name, label}];
         if (row.count++ == 0) {

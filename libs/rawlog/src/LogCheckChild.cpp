@@ -70,8 +70,8 @@ Child runChild(std::vector<std::string> arguments) {
     }
     close(ends[0]);
     if (error != 0)
-        throw std::runtime_error(fmt::format("{} cannot be started to check a log ({})", arguments[0],
-                                             std::strerror(error)));
+        throw std::runtime_error(
+            fmt::format("{} cannot be started to check a log ({})", arguments[0], std::strerror(error)));
     return child;
 }
 
@@ -83,7 +83,8 @@ std::string lastLine(std::string text) {
 
 std::string causeOfDeath(const Child& child) {
     if (WIFSIGNALED(child.status))
-        return fmt::format("died of signal {} ({})", WTERMSIG(child.status), strsignal(WTERMSIG(child.status)));
+        return fmt::format("died of signal {} ({})", WTERMSIG(child.status),
+                           strsignal(WTERMSIG(child.status)));
     return fmt::format("ended with exit code {} and no answer", WEXITSTATUS(child.status));
 }
 
@@ -102,8 +103,8 @@ int checkLogMain(const std::string& file, const LogParameters& parameters, std::
     }
 }
 
-LogSummary summariseInChild(const std::string& program, const std::string& file, const LogParameters& parameters,
-                            std::uint64_t memory_limit) {
+LogSummary summariseInChild(const std::string& program, const std::string& file,
+                            const LogParameters& parameters, std::uint64_t memory_limit) {
     const Child child = runChild({program, "check-log", file, "--memory-limit", std::to_string(memory_limit),
                                   "--reorder-window", shortestText(parameters.reorder_window), "--step",
                                   shortestText(parameters.step)});

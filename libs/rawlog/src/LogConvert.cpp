@@ -20,13 +20,13 @@ using mrpt::obs::CObservation;
 
 /// Takes the kept entries of a log in their order.
 class LogSink {
-   public:
+  public:
     LogSink(RawlogWriter& writer, ConvertResult& result) : writer_(writer), result_(result) {}
     virtual ~LogSink() = default;
     virtual void take(const LogEntry& entry) = 0;
     virtual void finish() = 0;
 
-   protected:
+  protected:
     RawlogWriter& writer_;
     ConvertResult& result_;
 };
@@ -37,7 +37,7 @@ bool isOdometry(const LogEntry& entry) {
 
 /// To observations: these go through; increments become absolute odometry that starts at zero.
 class ObservationSink : public LogSink {
-   public:
+  public:
     using LogSink::LogSink;
 
     void take(const LogEntry& entry) override {
@@ -51,9 +51,10 @@ class ObservationSink : public LogSink {
 
     void finish() override {}
 
-   private:
+  private:
     void accumulate(const OdometryIncrement& increment) {
-        if (!started_) write({increment.t0, pose_, increment.velocity ? std::optional(BodyVelocity{}) : std::nullopt});
+        if (!started_)
+            write({increment.t0, pose_, increment.velocity ? std::optional(BodyVelocity{}) : std::nullopt});
         started_ = true;
         pose_ = pose_ * increment.increment;
         write({increment.t1, pose_, increment.velocity});
@@ -87,17 +88,18 @@ CActionRobotMovement2D::Ptr actionOf(const OdometryIncrement& increment) {
         // A covariance of its own travels in this form only: that of odometry is made anew from a model.
         const Pose2& way = increment.increment;
         action->poseChange = mrpt::poses::CPosePDF::Ptr(std::make_shared<mrpt::poses::CPosePDFGaussian>(
-            mrpt::poses::CPose2D(way.x, way.y, way.theta), mrpt::math::CMatrixDouble33(*increment.covariance)));
+            mrpt::poses::CPose2D(way.x, way.y, way.theta),
+            mrpt::math::CMatrixDouble33(*increment.covariance)));
         action->estimationMethod = CActionRobotMovement2D::emScan2DMatching;
     }
     return action;
 }
 
 class FrameSink : public LogSink {
-   public:
+  public:
     using LogSink::LogSink;
 
-   protected:
+  protected:
     /// A frame without a movement gets an empty action, since MRPT reads pairs.
     void write(const CActionRobotMovement2D::Ptr& action, const std::vector<CObservation::Ptr>& seen) {
         mrpt::obs::CActionCollection actions;
@@ -112,7 +114,7 @@ class FrameSink : public LogSink {
 
 /// Observations of one stamp become a sensory frame; the action before it is the way since the frame before.
 class FramesFromReadings : public FrameSink {
-   public:
+  public:
     using FrameSink::FrameSink;
 
     void take(const LogEntry& entry) override {
@@ -137,7 +139,7 @@ class FramesFromReadings : public FrameSink {
         if (rest.x != 0 || rest.y != 0 || rest.theta != 0) write(actionOf(rest, last_->stamp), {});
     }
 
-   private:
+  private:
     struct Frame {
         Stamp stamp;
         std::vector<CObservation::Ptr> observations;
@@ -189,7 +191,7 @@ class FramesFromReadings : public FrameSink {
 
 /// Frames stay as they are.
 class FramesFromIncrements : public FrameSink {
-   public:
+  public:
     using FrameSink::FrameSink;
 
     void take(const LogEntry& entry) override {
@@ -207,7 +209,7 @@ class FramesFromIncrements : public FrameSink {
         seen_.clear();
     }
 
-   private:
+  private:
     std::optional<Stamp> stamp_;
     CActionRobotMovement2D::Ptr action_;
     std::vector<CObservation::Ptr> seen_;
@@ -220,7 +222,8 @@ std::unique_ptr<LogSink> makeSink(LogFormat from, LogFormat to, RawlogWriter& wr
 }
 
 bool isKept(const LogEntry& entry, const ConvertOptions& options) {
-    if ((options.from && entry.stamp < *options.from) || (options.to && entry.stamp > *options.to)) return false;
+    if ((options.from && entry.stamp < *options.from) || (options.to && entry.stamp > *options.to))
+        return false;
     if (entry.increment || isOdometry(entry)) return true;
     const auto& labels = options.labels;
     return labels.empty() ||
@@ -242,7 +245,8 @@ ConvertResult convertLog(const std::string& in, const std::string& out, const Lo
 
     while (const auto entry = reader.next()) {
         if (progress && !progress(reader.progress()))
-            throw LogError(fmt::format("{}: stopped before its end, {}.part holds what was written", in, out));
+            throw LogError(
+                fmt::format("{}: stopped before its end, {}.part holds what was written", in, out));
         if (isKept(*entry, options))
             sink->take(*entry);
         else

@@ -9,22 +9,18 @@ namespace slamot {
 
 using nlohmann::json;
 
-NLOHMANN_JSON_SERIALIZE_ENUM(LogFormat,
-                             {{LogFormat::observations, "observations"}, {LogFormat::action_frames, "action-frames"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(LogFormat, {{LogFormat::observations, "observations"},
+                                         {LogFormat::action_frames, "action-frames"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(LogEnd, {{LogEnd::not_yet, "not yet"},
                                       {LogEnd::clean, "clean"},
                                       {LogEnd::truncated, "truncated"},
                                       {LogEnd::corrupt, "corrupt"}})
 
 static void to_json(json& j, const SensorSummary& s) {
-    j = {{"class", s.class_name},
-         {"label", s.label},
-         {"count", s.count},
-         {"first_ticks", s.first.ticks},
-         {"last_ticks", s.last.ticks},
-         {"detections", s.detections},
-         {"identified", s.identified},
-         {"has_velocities", s.has_velocities},
+    j = {{"class", s.class_name},      {"label", s.label},
+         {"count", s.count},           {"first_ticks", s.first.ticks},
+         {"last_ticks", s.last.ticks}, {"detections", s.detections},
+         {"identified", s.identified}, {"has_velocities", s.has_velocities},
          {"has_noise", s.has_noise}};
 }
 
@@ -44,9 +40,12 @@ std::string toJson(const LogSummary& summary) {
     json drops = json::array();
     for (const auto& [row, count] : summary.drops.rows())
         drops.push_back({{"sensor", row.first}, {"reason", row.second}, {"count", count}});
-    const json j = {{"format", summary.format},   {"timed_by_step", summary.timed_by_step},
-                    {"end", summary.end},         {"end_message", summary.end_message},
-                    {"objects", summary.objects}, {"sensors", summary.sensors},
+    const json j = {{"format", summary.format},
+                    {"timed_by_step", summary.timed_by_step},
+                    {"end", summary.end},
+                    {"end_message", summary.end_message},
+                    {"objects", summary.objects},
+                    {"sensors", summary.sensors},
                     {"drops", drops}};
     // Labels of a broken log may be no UTF-8 at all.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::size_t longest_class_name = 120;  // MRPT's limit
 
-/// The class name in front of an object: a byte 0x80 + length and the name, or, before MRPT 0.5.5, the length as
-/// four bytes and the name. Nothing when the bytes are no such header; empty when they break off within it.
+/// The class name in front of an object: a byte 0x80 + length and the name, or, before MRPT 0.5.5, the length
+/// as four bytes and the name. Nothing when the bytes are no such header; empty when they break off within
+/// it.
 std::optional<std::string> peekClassName(GzReader& bytes) {
     const auto isNameCharacter = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
     const std::string first(bytes.peek(1));
@@ -48,8 +49,9 @@ ObjectReader::ObjectReader(const std::string& file) : file_(file), bytes_(file) 
             throw LogError(fmt::format("{}: holds no data, expected a rawlog", file));
         throw LogError(fmt::format("{}: nothing can be read, {}; expected a rawlog", file, bytes_.trouble()));
     }
-    if (!peekClassName(bytes_))
-        throw LogError(fmt::format("{}: is no rawlog, since it does not start with an MRPT object", file));
+    if (peekClassName(bytes_).value_or("").empty())
+        throw LogError(
+            fmt::format("{}: is no rawlog: it does not start with an MRPT object, expected a rawlog", file));
 }
 
 std::optional<LogObject> ObjectReader::next() {
@@ -94,9 +96,10 @@ mrpt::serialization::CSerializable::Ptr ObjectReader::read() {
         return nullptr;
     }
     if (*name != "nullptr" && !mrpt::rtti::findRegisteredClass(*name)) {
-        finish(LogEnd::corrupt, fmt::format("unknown class '{}' (objects carry no length, so what follows cannot be "
-                                            "read) at",
-                                            *name));
+        finish(LogEnd::corrupt,
+               fmt::format("unknown class '{}' (objects carry no length, so what follows cannot be "
+                           "read) at",
+                           *name));
         return nullptr;
     }
     try {
@@ -119,8 +122,8 @@ mrpt::serialization::CSerializable::Ptr ObjectReader::read() {
 
 void ObjectReader::finish(LogEnd end, const std::string& what) {
     end_ = end;
-    end_message_ =
-        fmt::format("{}: {} object {} (byte {} of the uncompressed data)", file_, what, count_, object_begin_);
+    end_message_ = fmt::format("{}: {} object {} (byte {} of the uncompressed data)", file_, what, count_,
+                               object_begin_);
 }
 
 }  // namespace slamot

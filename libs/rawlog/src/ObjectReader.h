@@ -17,11 +17,12 @@ struct LogObject {
 };
 
 class ObjectReader {
-   public:
+  public:
     /// Throws LogError for a file that is missing, empty or no rawlog.
     explicit ObjectReader(const std::string& file);
 
-    /// The next object, or nothing at the end. A `CRawlog` object (how whole logs were saved once) gives its entries.
+    /// The next object, or nothing at the end. A `CRawlog` object (how whole logs were saved once) gives its
+    /// entries.
     std::optional<LogObject> next();
 
     LogEnd end() const { return end_; }
@@ -29,7 +30,7 @@ class ObjectReader {
     std::int64_t objects() const { return count_; }
     double progress() const { return bytes_.progress(); }
 
-   private:
+  private:
     mrpt::serialization::CSerializable::Ptr read();
     void finish(LogEnd end, const std::string& what);
 

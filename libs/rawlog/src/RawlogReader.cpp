@@ -37,7 +37,8 @@ struct RawlogReader::Impl {
     Impl(const std::string& file, const LogParameters& log_parameters)
         : parameters(log_parameters), objects(file), queue(log_parameters.reorder_window) {
         // The first object that is part of a log tells the format.
-        while ((held = objects.next()) && !isAction(*held) && !isFrame(*held) && !isObservation(*held)) dropOther(*held);
+        while ((held = objects.next()) && !isAction(*held) && !isFrame(*held) && !isObservation(*held))
+            dropOther(*held);
         if (held && !isObservation(*held)) {
             format = LogFormat::action_frames;
             timed_by_step = !frameStampsUsable(file);
@@ -61,7 +62,8 @@ struct RawlogReader::Impl {
 
     void dropOther(const LogObject& o) {
         const bool comment = IS_CLASS(*o.object, mrpt::obs::CObservationComment);
-        drops.add(comment ? "" : o.object->GetRuntimeClass()->className, comment ? "comment" : "not-an-observation");
+        drops.add(comment ? "" : o.object->GetRuntimeClass()->className,
+                  comment ? "comment" : "not-an-observation");
     }
 
     std::optional<LogEntry> nextObservation() {
@@ -113,8 +115,8 @@ struct RawlogReader::Impl {
         return entry;
     }
 
-    /// When the frame's movement ended and its observations were made. The log's start is step 0: a sensory frame
-    /// before the first action lies there, the first action ends at step 1.
+    /// When the frame's movement ended and its observations were made. The log's start is step 0: a sensory
+    /// frame before the first action lies there, the first action ends at step 1.
     Stamp timeOf(const ActionFrame& frame) {
         if (previous || frame.action) ++step;
         if (timed_by_step) return later(action_frame_epoch, static_cast<double>(step) * parameters.step);
@@ -139,7 +141,8 @@ struct RawlogReader::Impl {
         previous = stamp;
     }
 
-    void unpackObservations(const mrpt::obs::CSensoryFrame& observations, Stamp stamp, std::int64_t position) {
+    void unpackObservations(const mrpt::obs::CSensoryFrame& observations, Stamp stamp,
+                            std::int64_t position) {
         std::vector<mrpt::obs::CObservation::Ptr> sorted;
         for (const auto& observation : observations) {
             if (!observation)
@@ -150,7 +153,8 @@ struct RawlogReader::Impl {
                 sorted.push_back(observation);
         }
         std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-            return std::make_pair(orderRank(*a), a->sensorLabel) < std::make_pair(orderRank(*b), b->sensorLabel);
+            return std::make_pair(orderRank(*a), a->sensorLabel) <
+                   std::make_pair(orderRank(*b), b->sensorLabel);
         });
         for (const auto& observation : sorted) {
             observation->timestamp = toMrpt(stamp);

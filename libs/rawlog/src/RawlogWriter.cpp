@@ -49,7 +49,8 @@ void RawlogWriter::close() {
     std::error_code error;
     fs::remove(checksum_file, error);
     fs::rename(impl_->part, impl_->file, error);
-    if (error) throw LogError(fmt::format("{}: cannot be renamed from .part ({})", impl_->file, error.message()));
+    if (error)
+        throw LogError(fmt::format("{}: cannot be renamed from .part ({})", impl_->file, error.message()));
     std::ofstream out(checksum_file);
     out << sha256OfFile(impl_->file) << "  " << fs::path(impl_->file).filename().string() << '\n';
     out.close();

@@ -14,7 +14,7 @@ namespace slamot {
 int orderRank(const mrpt::obs::CObservation& observation);
 
 class ReorderQueue {
-   public:
+  public:
     /// `window` in seconds.
     explicit ReorderQueue(double window) : window_(Stamp::fromSeconds(window).ticks) {}
 
@@ -23,7 +23,7 @@ class ReorderQueue {
     /// The first entry in order, if no later arrival may come before it (or `flush`: whatever may come).
     std::optional<LogEntry> pop(bool flush);
 
-   private:
+  private:
     using Key = std::tuple<std::int64_t, int, std::string, std::int64_t>;  // stamp, rank, label, position
 
     std::int64_t window_;

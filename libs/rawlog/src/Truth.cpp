@@ -42,7 +42,9 @@ std::optional<TrueTarget> Truth::targetAt(SourceId id, Stamp stamp) const {
     const auto n = neighbours(found->second, stamp);
     if (!n) return std::nullopt;
     const TrueTarget &a = found->second[n->before], &b = found->second[n->after];
-    const auto between = [f = n->fraction](const Vector2& u, const Vector2& v) -> Vector2 { return u + f * (v - u); };
+    const auto between = [f = n->fraction](const Vector2& u, const Vector2& v) -> Vector2 {
+        return u + f * (v - u);
+    };
     TrueTarget target{stamp, between(a.position, b.position), between(a.velocity, b.velocity),
                       between(a.acceleration, b.acceleration), a.mode};
     if (!target.position.allFinite()) return std::nullopt;

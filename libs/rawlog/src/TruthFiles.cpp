@@ -68,10 +68,12 @@ SourceId idOfTargetFile(const fs::path& file) {
     const std::string name = file.filename().string();
     const std::string digits =
         name.substr(target_prefix.size(), name.size() - target_prefix.size() - target_suffix.size());
-    const bool number = !digits.empty() && digits.size() <= 18 &&
-                        std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool number =
+        !digits.empty() && digits.size() <= 18 &&
+        std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!number)
-        throw LogError(fmt::format("{}: expected a name like target_7.csv with the target's id", file.string()));
+        throw LogError(
+            fmt::format("{}: expected a name like target_7.csv with the target's id", file.string()));
     return SourceId{std::stoll(digits)};
 }
 
@@ -93,7 +95,8 @@ std::map<SourceId, Vector2> readLandmarks(const std::string& file) {
 
 std::vector<TrueAssociation> readAssociations(const std::string& file) {
     CsvReader csv(file);
-    const int t = csv.column("t"), index = csv.column("index"), kind = csv.column("kind"), id = csv.column("id");
+    const int t = csv.column("t"), index = csv.column("index"), kind = csv.column("kind"),
+              id = csv.column("id");
     std::vector<TrueAssociation> associations;
     while (csv.next()) {
         const std::string word = csv.text(kind);
@@ -113,15 +116,16 @@ void readNotes(const std::string& file, Truth& truth) {
         truth.source = notes.value("source", truth.source);
         truth.position_std = notes.value("position_std", truth.position_std);
     } catch (const json::exception& error) {
-        throw LogError(fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
-                                   "'position_std' ({})",
-                                   file, error.what()));
+        throw LogError(
+            fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
+                        "'position_std' ({})",
+                        file, error.what()));
     }
 }
 
 /// A file written whole: an error while writing is reported, not swallowed.
 class TextFile {
-   public:
+  public:
     explicit TextFile(const fs::path& file) : name_(file.string()), out_(file) {
         if (!out_) throw LogError(fmt::format("{}: cannot be written", name_));
     }
@@ -131,7 +135,7 @@ class TextFile {
         if (!out_) throw LogError(fmt::format("{}: cannot be written to its end", name_));
     }
 
-   private:
+  private:
     std::string name_;
     std::ofstream out_;
 };
@@ -220,7 +224,8 @@ void writeNotes(const Truth& truth, const fs::path& file) {
                   {"associations", truth.associations.size()},
                   {"robot", coverage(truth.robot)},
                   {"targets", json::object()}};
-    for (const auto& [id, samples] : truth.targets) notes["targets"][std::to_string(id.value)] = coverage(samples);
+    for (const auto& [id, samples] : truth.targets)
+        notes["targets"][std::to_string(id.value)] = coverage(samples);
     TextFile out(file);
     out.line(notes.dump(2));
     out.close();
@@ -229,14 +234,16 @@ void writeNotes(const Truth& truth, const fs::path& file) {
 }  // namespace
 
 Truth readTruth(const std::string& folder) {
-    if (!fs::is_directory(folder)) throw LogError(fmt::format("{}: is no folder, expected one with truth", folder));
+    if (!fs::is_directory(folder))
+        throw LogError(fmt::format("{}: is no folder, expected one with truth", folder));
     const fs::path in(folder);
     Truth truth;
     bool any = false;
     const auto present = [&](const char* name) { return fs::exists(in / name) && (any = true); };
     if (present("robot.csv")) truth.robot = readRobot((in / "robot.csv").string());
     if (present("landmarks.csv")) truth.landmarks = readLandmarks((in / "landmarks.csv").string());
-    if (present("associations.csv")) truth.associations = readAssociations((in / "associations.csv").string());
+    if (present("associations.csv"))
+        truth.associations = readAssociations((in / "associations.csv").string());
     for (const auto& entry : fs::directory_iterator(in)) {
         if (!isTargetFile(entry.path())) continue;
         any = true;
@@ -244,7 +251,8 @@ Truth readTruth(const std::string& folder) {
     }
     if (!any)
         throw LogError(fmt::format(
-            "{}: holds no truth, expected robot.csv, target_<id>.csv, landmarks.csv or associations.csv", folder));
+            "{}: holds no truth, expected robot.csv, target_<id>.csv, landmarks.csv or associations.csv",
+            folder));
     if (fs::exists(in / "truth.json")) readNotes((in / "truth.json").string(), truth);
     return truth;
 }

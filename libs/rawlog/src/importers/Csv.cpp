@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <tuple>
 
-#include "Importers.h"
 #include "ImportedLog.h"
+#include "Importers.h"
 #include "slamot/core/config/Config.h"
 #include "slamot/core/models/RobotMotion.h"
 #include "slamot/rawlog/CsvTable.h"
@@ -31,9 +31,11 @@ SensorFile readSensorFile(const std::string& file) {
     SensorFile values;
     ParameterTable sensor("sensor", "The range-bearing sensor.");
     sensor.real("range_std", values.range_std, "m", Interval::positive(), "Standard deviation of ranges.")
-        .real("bearing_std_deg", values.bearing_std, "deg", Interval::positive(), "Standard deviation of bearings.")
+        .real("bearing_std_deg", values.bearing_std, "deg", Interval::positive(),
+              "Standard deviation of bearings.")
         .real("min_range", values.min_range, "m", Interval::nonNegative(), "Nearest range it reports.")
-        .real("max_range", values.max_range, "m", Interval::nonNegative(), "Farthest range it reports; 0 unlimited.")
+        .real("max_range", values.max_range, "m", Interval::nonNegative(),
+              "Farthest range it reports; 0 unlimited.")
         .real("field_of_view_deg", values.field_of_view, "deg", Interval{0, 360, true, false}, "Full width.")
         .real("x", values.x, "m", Interval::any(), "Position on the robot, forward.")
         .real("y", values.y, "m", Interval::any(), "Position on the robot, to the left.")
@@ -50,7 +52,8 @@ SensorFile readSensorFile(const std::string& file) {
     load(vehicle, config);
     for (const char* key : {"range_std", "bearing_std_deg"})
         if (config.section("sensor").count(key) == 0)
-            throw LogError(fmt::format("{}: section [sensor] lacks '{}', expected a positive number", file, key));
+            throw LogError(
+                fmt::format("{}: section [sensor] lacks '{}', expected a positive number", file, key));
     return values;
 }
 
@@ -76,12 +79,12 @@ std::vector<OdometryReading> readVelocities(CsvReader& csv, const SensorFile& va
         const Stamp stamp = risingStamp(csv, t, readings);
         if (steered && std::abs(finite(csv, turning)) >= pi / 2)
             csv.fail(turning, "a steering angle of less than a quarter turn");
-        const BodyVelocity velocity = steered
-                                          ? steeredToBody(finite(csv, v), finite(csv, turning), values.wheelbase)
-                                          : BodyVelocity{finite(csv, v), 0, finite(csv, turning)};
-        const Pose2 pose =
-            readings.empty() ? Pose2{}
-                             : moved(readings.back().pose, velocity, secondsBetween(readings.back().stamp, stamp));
+        const BodyVelocity velocity =
+            steered ? steeredToBody(finite(csv, v), finite(csv, turning), values.wheelbase)
+                    : BodyVelocity{finite(csv, v), 0, finite(csv, turning)};
+        const Pose2 pose = readings.empty() ? Pose2{}
+                                            : moved(readings.back().pose, velocity,
+                                                    secondsBetween(readings.back().stamp, stamp));
         readings.push_back({stamp, pose, velocity});
     }
     return readings;
@@ -92,7 +95,8 @@ std::vector<OdometryReading> readPoses(CsvReader& csv) {
     std::vector<OdometryReading> readings;
     while (csv.next()) {
         const Stamp stamp = risingStamp(csv, t, readings);
-        readings.push_back({stamp, {finite(csv, x), finite(csv, y), wrapAngle(finite(csv, theta))}, std::nullopt});
+        readings.push_back(
+            {stamp, {finite(csv, x), finite(csv, y), wrapAngle(finite(csv, theta))}, std::nullopt});
     }
     return readings;
 }
@@ -111,7 +115,8 @@ std::vector<ImportedLog::Detection> readDetections(const std::string& file) {
     while (csv.next()) {
         const std::string word = csv.text(kind);
         const char* label = word == "landmark" ? "landmarks" : word == "mover" ? "movers" : "mixed";
-        if (word != "landmark" && word != "mover" && word != "unknown") csv.fail(kind, "landmark, mover or unknown");
+        if (word != "landmark" && word != "mover" && word != "unknown")
+            csv.fail(kind, "landmark, mover or unknown");
         const SourceId source = csv.empty(id) ? SourceId{} : SourceId{csv.integer(id)};
         if (source.value < -1) csv.fail(id, "an id of at least 0, or -1 or nothing when it is unknown");
         // Not finite ones too: a log shows what a sensor said, and the run counts what it cannot use.
@@ -121,21 +126,24 @@ std::vector<ImportedLog::Detection> readDetections(const std::string& file) {
 }
 
 /// The n-th detection of a stamp in observations.csv is another one in the log, which is sorted by label.
-void renumber(std::vector<TrueAssociation>& associations, const std::vector<ImportedLog::Detection>& detections,
-              const std::vector<int>& indices, const std::string& file) {
+void renumber(std::vector<TrueAssociation>& associations,
+              const std::vector<ImportedLog::Detection>& detections, const std::vector<int>& indices,
+              const std::string& file) {
     std::map<Stamp, std::vector<int>> in_log;
     for (std::size_t i = 0; i < detections.size(); ++i) in_log[detections[i].stamp].push_back(indices[i]);
     for (auto& row : associations) {
         const auto found = in_log.find(row.stamp);
         if (found == in_log.end() || row.index < 0 || row.index >= static_cast<int>(found->second.size()))
-            throw LogError(fmt::format("{}: the association at t = {} with index {} has no detection in "
-                                       "observations.csv",
-                                       file, toText(row.stamp), row.index));
+            throw LogError(
+                fmt::format("{}: the association at t = {} with index {} has no detection in "
+                            "observations.csv",
+                            file, toText(row.stamp), row.index));
         row.index = found->second[row.index];
     }
-    std::stable_sort(associations.begin(), associations.end(), [](const TrueAssociation& a, const TrueAssociation& b) {
-        return std::tie(a.stamp, a.index) < std::tie(b.stamp, b.index);
-    });
+    std::stable_sort(associations.begin(), associations.end(),
+                     [](const TrueAssociation& a, const TrueAssociation& b) {
+                         return std::tie(a.stamp, a.index) < std::tie(b.stamp, b.index);
+                     });
 }
 
 bool hasTruth(const fs::path& folder) {
@@ -152,7 +160,8 @@ bool hasTruth(const fs::path& folder) {
 ImportResult importCsv(const std::string& in, const std::string& out, const ImportProgress& progress) {
     const fs::path folder(in);
     if (!fs::is_directory(folder))
-        throw LogError(fmt::format("{}: is no folder, expected one with odometry.csv and observations.csv", in));
+        throw LogError(
+            fmt::format("{}: is no folder, expected one with odometry.csv and observations.csv", in));
     const SensorFile values = readSensorFile((folder / "sensor.ini").string());
     ImportedLog log;
     log.odometry = readOdometry((folder / "odometry.csv").string(), values);

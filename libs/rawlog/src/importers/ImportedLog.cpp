@@ -21,8 +21,8 @@ Pose2 moved(const Pose2& pose, const BodyVelocity& velocity, double seconds) {
     return pose * Pose2{s * x - c * y, c * x + s * y, turn};
 }
 
-std::vector<int> ImportedLog::write(const std::string& file, const std::function<bool(double)>& progress, double begin,
-                                    double end) const {
+std::vector<int> ImportedLog::write(const std::string& file, const std::function<bool(double)>& progress,
+                                    double begin, double end) const {
     std::vector<std::size_t> order(detections.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) {
@@ -35,12 +35,15 @@ std::vector<int> ImportedLog::write(const std::string& file, const std::function
     std::size_t next_odometry = 0, written = 0;
     const auto count = [&] {
         constexpr std::size_t report_every = 4096;
-        const double part = static_cast<double>(written) / static_cast<double>(odometry.size() + detections.size());
+        const double part =
+            static_cast<double>(written) / static_cast<double>(odometry.size() + detections.size());
         if (written++ % report_every == 0 && progress && !progress(begin + (end - begin) * part))
-            throw LogError(fmt::format("{}: stopped before its end, the .part file holds what was written", file));
+            throw LogError(
+                fmt::format("{}: stopped before its end, the .part file holds what was written", file));
     };
     const auto writeOdometryUpTo = [&](Stamp stamp) {
-        for (; next_odometry < odometry.size() && odometry[next_odometry].stamp <= stamp; ++next_odometry, count())
+        for (; next_odometry < odometry.size() && odometry[next_odometry].stamp <= stamp;
+             ++next_odometry, count())
             writer.write(*toMrpt(odometry[next_odometry], "odometry"));
     };
     int index = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What all importers share: odometry and detections in the log's conventions, written in order of time, with the
-// association of every detection that has one.
+// What all importers share: odometry and detections in the log's conventions, written in order of time, with
+// the association of every detection that has one.
 #include <functional>
 #include <map>
 #include <string>
@@ -19,7 +19,7 @@ Pose2 moved(const Pose2& pose, const BodyVelocity& velocity, double seconds);
 inline constexpr std::int64_t robot_id_base = 1'000'000;
 
 class ImportedLog {
-   public:
+  public:
     /// A detection and what it really came from.
     struct Detection {
         Stamp stamp;
@@ -34,8 +34,9 @@ class ImportedLog {
     RangeBearingSensor sensor;
     double std_range = 0, std_bearing = 0;
 
-    /// One observation per stamp and label. Returns for every detection its index among those of its stamp, in the
-    /// order of the log. `progress` as in Importer.h, from `begin` to `end`; LogError when it says stop.
+    /// One observation per stamp and label. Returns for every detection its index among those of its stamp,
+    /// in the order of the log. `progress` as in Importer.h, from `begin` to `end`; LogError when it says
+    /// stop.
     std::vector<int> write(const std::string& file, const std::function<bool(double)>& progress, double begin,
                            double end) const;
 };

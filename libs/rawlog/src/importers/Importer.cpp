@@ -8,7 +8,8 @@ const std::vector<Importer>& importers() {
     static const std::vector<Importer> all = {
         {"mrclam", "UTIAS MRCLAM: Barcodes.dat, Landmark_Groundtruth.dat, Robot<k>_*.dat; one log per robot",
          importMrclam},
-        {"csv", "Plain tables: odometry.csv, observations.csv, sensor.ini, optional truth; one log", importCsv},
+        {"csv", "Plain tables: odometry.csv, observations.csv, sensor.ini, optional truth; one log",
+         importCsv},
     };
     return all;
 }

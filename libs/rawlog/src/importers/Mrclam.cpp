@@ -1,5 +1,6 @@
-// UTIAS Multi-Robot Cooperative Localization and Mapping dataset (Leung et al., IJRR 30(8), 2011): several robots
-// with odometry and a camera that reads bar codes on landmarks and on the other robots; truth by motion capture.
+// UTIAS Multi-Robot Cooperative Localization and Mapping dataset (Leung et al., IJRR 30(8), 2011): several
+// robots with odometry and a camera that reads bar codes on landmarks and on the other robots; truth by
+// motion capture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "Importers.h"
 #include "ImportedLog.h"
+#include "Importers.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/LogError.h"
 
@@ -24,8 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t first_landmark_subject = 6;  // those before are the robots, in their order
 
-// What the camera claims: spread of its readings against motion capture, rounded up (range 0.07-0.18 m, bearing
-// 0.005-0.019 rad over the robots).
+// What the camera claims: spread of its readings against motion capture, rounded up (range 0.07-0.18 m,
+// bearing 0.005-0.019 rad over the robots).
 constexpr double claimed_std_range = 0.15, claimed_std_bearing = 0.02;
 // Limits that contain every reading of set 6 (0.94 to 8.63 m, -0.592 to 0.572 rad).
 constexpr double min_range = 0.5, max_range = 10.0, field_of_view = 1.2;
@@ -33,8 +34,9 @@ constexpr double capture_std = 0.001;  // "on the order of 1e-3 m", Leung et al.
 
 /// One line of a table: fields between blanks.
 class Row {
-   public:
-    Row(std::string place, std::vector<std::string> fields) : place_(std::move(place)), fields_(std::move(fields)) {}
+  public:
+    Row(std::string place, std::vector<std::string> fields)
+        : place_(std::move(place)), fields_(std::move(fields)) {}
 
     Stamp stamp(std::size_t i) const {
         try {
@@ -54,7 +56,7 @@ class Row {
         return static_cast<std::int64_t>(value);
     }
 
-   private:
+  private:
     [[noreturn]] void fail(std::size_t i, const std::string& expected) const {
         throw LogError(fmt::format("{}: field {} is '{}', expected {}", place_, i + 1, fields_[i], expected));
     }
@@ -66,7 +68,8 @@ class Row {
 void forEachRow(const fs::path& file, std::size_t columns, const std::function<void(const Row&)>& take) {
     std::ifstream in(file);
     if (!in || !fs::is_regular_file(file))
-        throw LogError(fmt::format("{}: cannot be opened, expected a table of the MRCLAM dataset", file.string()));
+        throw LogError(
+            fmt::format("{}: cannot be opened, expected a table of the MRCLAM dataset", file.string()));
     std::string line;
     for (std::int64_t number = 1; std::getline(in, line); ++number) {
         std::istringstream words(line.substr(0, line.find('#')));
@@ -83,7 +86,8 @@ void forEachRow(const fs::path& file, std::size_t columns, const std::function<v
 /// Subject of each bar code: the measurements give the code, not the subject their header promises.
 std::map<std::int64_t, std::int64_t> readBarcodes(const fs::path& folder) {
     std::map<std::int64_t, std::int64_t> subjects;
-    forEachRow(folder / "Barcodes.dat", 2, [&](const Row& row) { subjects[row.integer(1)] = row.integer(0); });
+    forEachRow(folder / "Barcodes.dat", 2,
+               [&](const Row& row) { subjects[row.integer(1)] = row.integer(0); });
     return subjects;
 }
 
@@ -145,8 +149,8 @@ struct Counts {
 };
 
 std::vector<ImportedLog::Detection> readDetections(const fs::path& file,
-                                                   const std::map<std::int64_t, std::int64_t>& subjects, int robot,
-                                                   Counts& counts) {
+                                                   const std::map<std::int64_t, std::int64_t>& subjects,
+                                                   int robot, Counts& counts) {
     std::vector<ImportedLog::Detection> detections;
     forEachRow(file, 4, [&](const Row& row) {
         const auto subject = subjects.find(row.integer(1));
@@ -206,7 +210,8 @@ ImportResult importMrclam(const std::string& in, const std::string& out, const I
         robots.push_back(k);
         true_poses[k] = readTruePoses(folder / fmt::format("Robot{}_Groundtruth.dat", k));
     }
-    if (robots.empty()) throw LogError(fmt::format("{}: holds no Robot1_Odometry.dat, expected an MRCLAM set", in));
+    if (robots.empty())
+        throw LogError(fmt::format("{}: holds no Robot1_Odometry.dat, expected an MRCLAM set", in));
     std::error_code error;
     fs::create_directories(target, error);
     if (error) throw LogError(fmt::format("{}: cannot be made ({})", out, error.message()));
@@ -217,7 +222,8 @@ ImportResult importMrclam(const std::string& in, const std::string& out, const I
         Counts counts;
         ImportedLog log;
         log.odometry = integrate(readCommands(folder / fmt::format("Robot{}_Odometry.dat", k), doubled));
-        log.detections = readDetections(folder / fmt::format("Robot{}_Measurement.dat", k), subjects, k, counts);
+        log.detections =
+            readDetections(folder / fmt::format("Robot{}_Measurement.dat", k), subjects, k, counts);
         log.sensor.min_range = min_range;
         log.sensor.max_range = max_range;
         log.sensor.field_of_view = field_of_view;
@@ -239,11 +245,15 @@ ImportResult importMrclam(const std::string& in, const std::string& out, const I
 
         result.files.push_back(file);
         result.files.push_back(truthFolderOf(file));
-        result.notes.push_back(fmt::format(
-            "robot {}: {} odometry readings ({} commands replaced by a later one of the same time; the last command "
-            "has no end and is left out), {} detections of landmarks, {} of robots, {} of unknown codes (kept under "
-            "'landmarks' without an id), {} of itself (dropped), {} outside the limits written for the sensor",
-            k, log.odometry.size(), doubled, counts.landmarks, counts.movers, counts.unknown, counts.itself, outside));
+        result.notes.push_back(
+            fmt::format("robot {}: {} odometry readings ({} commands replaced by a later one of the same "
+                        "time; the last command "
+                        "has no end and is left out), {} detections of landmarks, {} of robots, {} of "
+                        "unknown codes (kept under "
+                        "'landmarks' without an id), {} of itself (dropped), {} outside the limits written "
+                        "for the sensor",
+                        k, log.odometry.size(), doubled, counts.landmarks, counts.movers, counts.unknown,
+                        counts.itself, outside));
     }
     return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The border between MRPT's observations and this project's values: the log conventions of doc/file_formats.md,
-// each way in one place.
+// The border between MRPT's observations and this project's values: the log conventions of
+// doc/file_formats.md, each way in one place.
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -41,15 +41,15 @@ struct RangeBearingReading {
         double range = 0, bearing = 0;
         /// The log's id, or none.
         SourceId id;
-        /// Covariance of [range bearing] the log claims: its own where it has one, else from sensor_std_*; zero
-        /// where it claims nothing.
+        /// Covariance of [range bearing] the log claims: its own where it has one, else from sensor_std_*;
+        /// zero where it claims nothing.
         Matrix2 covariance = Matrix2::Zero();
     };
     std::vector<Item> items;
 };
 
-/// Throws LogError for a sensor with pitch or roll beyond a degree: this program is planar. Items are passed on
-/// as they are, finite or not: the pipeline drops and counts them one by one.
+/// Throws LogError for a sensor with pitch or roll beyond a degree: this program is planar. Items are passed
+/// on as they are, finite or not: the pipeline drops and counts them one by one.
 RangeBearingReading fromMrpt(const mrpt::obs::CObservationBearingRange& observation);
 /// `std_range`, `std_bearing` are the sensor's own claims, written to sensor_std_*.
 mrpt::obs::CObservationBearingRange::Ptr toMrpt(const RangeBearingReading& reading, double std_range,

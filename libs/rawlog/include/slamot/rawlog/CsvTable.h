@@ -11,7 +11,7 @@ namespace slamot {
 
 /// Reads row by row; columns are found by name. Errors name file, line and column.
 class CsvReader {
-   public:
+  public:
     /// Throws LogError when the file cannot be opened or has no header.
     explicit CsvReader(const std::string& file);
 
@@ -20,8 +20,8 @@ class CsvReader {
     int column(const std::string& name) const;
     const std::vector<std::string>& header() const { return header_; }
 
-    /// Goes to the next row; false at the end. A row with another number of fields than the header is an error,
-    /// except a last line without a newline, which a crashed writer may have left: it ends the table.
+    /// Goes to the next row; false at the end. A row with another number of fields than the header is an
+    /// error, except a last line without a newline, which a crashed writer may have left: it ends the table.
     bool next();
 
     bool empty(int column) const;
@@ -33,15 +33,15 @@ class CsvReader {
     Stamp stamp(int column) const;
     [[noreturn]] void fail(int column, const std::string& expected) const;
 
-   private:
+  private:
     std::string file_;
     std::ifstream in_;
     std::vector<std::string> header_, fields_;
     std::int64_t line_ = 0;
 };
 
-/// The shortest text that reads back as the same number, appended to `line` after a comma (none at the start of a
-/// line).
+/// The shortest text that reads back as the same number, appended to `line` after a comma (none at the start
+/// of a line).
 void appendField(std::string& line, double value);
 void appendField(std::string& line, std::int64_t value);
 void appendField(std::string& line, std::string_view text);

@@ -16,7 +16,8 @@ using ImportProgress = std::function<bool(double)>;
 
 struct Importer {
     std::string format, about;
-    /// Reads folder `in`; writes `out` (a .rawlog for single-robot data, a folder for several). Throws LogError.
+    /// Reads folder `in`; writes `out` (a .rawlog for single-robot data, a folder for several). Throws
+    /// LogError.
     ImportResult (*run)(const std::string& in, const std::string& out, const ImportProgress& progress);
 };
 

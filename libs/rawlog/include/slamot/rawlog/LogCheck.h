@@ -1,6 +1,6 @@
 #pragma once
-// Looking through a log that may be broken or hostile, in a child process with limited memory: MRPT's readers can
-// be made to allocate without bound or to crash by a flipped bit.
+// Looking through a log that may be broken or hostile, in a child process with limited memory: MRPT's readers
+// can be made to allocate without bound or to crash by a flipped bit.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -37,14 +37,15 @@ LogSummary summarise(const std::string& file, const LogParameters& parameters);
 std::string toJson(const LogSummary& summary);
 LogSummary logSummaryFromJson(const std::string& json);
 
-/// What the program started by summariseInChild does: lowers its own address space to `memory_limit` bytes (not in
-/// sanitizer builds, which reserve far more), prints toJson(summarise(file)) or the error, and returns its exit code.
+/// What the program started by summariseInChild does: lowers its own address space to `memory_limit` bytes
+/// (not in sanitizer builds, which reserve far more), prints toJson(summarise(file)) or the error, and
+/// returns its exit code.
 int checkLogMain(const std::string& file, const LogParameters& parameters, std::uint64_t memory_limit);
 
-/// Runs `program check-log FILE --memory-limit BYTES --reorder-window S --step S`, which must call checkLogMain, and
-/// takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call before any thread is
-/// started. Throws LogError when the child says the file cannot be used at all.
-LogSummary summariseInChild(const std::string& program, const std::string& file, const LogParameters& parameters,
-                            std::uint64_t memory_limit = 2ull << 30);
+/// Runs `program check-log FILE --memory-limit BYTES --reorder-window S --step S`, which must call
+/// checkLogMain, and takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call
+/// before any thread is started. Throws LogError when the child says the file cannot be used at all.
+LogSummary summariseInChild(const std::string& program, const std::string& file,
+                            const LogParameters& parameters, std::uint64_t memory_limit = 2ull << 30);
 
 }  // namespace slamot

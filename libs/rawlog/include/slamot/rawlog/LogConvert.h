@@ -31,8 +31,8 @@ struct ConvertResult {
     DropTable drops;
 };
 
-/// Reads `in`, writes `out` (see RawlogWriter). `progress` gets the part done and returns false to stop, which leaves
-/// OUT.part. Throws LogError.
+/// Reads `in`, writes `out` (see RawlogWriter). `progress` gets the part done and returns false to stop,
+/// which leaves OUT.part. Throws LogError.
 ConvertResult convertLog(const std::string& in, const std::string& out, const LogParameters& parameters,
                          const ConvertOptions& options, const std::function<bool(double)>& progress = {});
 

@@ -5,7 +5,7 @@ namespace slamot {
 
 /// A log, truth or data file that cannot be used: one sentence with file, place and what was expected.
 class LogError : public std::runtime_error {
-   public:
+  public:
     using std::runtime_error::runtime_error;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Streams either of MRPT's log formats in a stable order.
-#include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservation.h>
 
 #include <cstdint>
 #include <map>
@@ -21,20 +21,20 @@ inline constexpr Stamp action_frame_epoch{1'577'836'800 * Stamp::ticks_per_secon
 
 /// Section `[log]`: how a log is read.
 struct LogParameters {
-    double reorder_window = 1.0;     ///< [s]
-    double step = 0.1;               ///< [s] per frame, for action-frame logs without usable stamps
+    double reorder_window = 1.0;  ///< [s]
+    double step = 0.1;            ///< [s] per frame, for action-frame logs without usable stamps
 };
 ParameterTable describe(LogParameters& parameters);
 
-/// What was not used, by sensor label and reason. Reasons are short words; doc/file_formats.md lists those of the
-/// reader.
+/// What was not used, by sensor label and reason. Reasons are short words; doc/file_formats.md lists those of
+/// the reader.
 class DropTable {
-   public:
+  public:
     void add(const std::string& sensor, const std::string& reason, std::int64_t count = 1);
     const std::map<std::pair<std::string, std::string>, std::int64_t>& rows() const { return rows_; }
     std::int64_t total() const;
 
-   private:
+  private:
     std::map<std::pair<std::string, std::string>, std::int64_t> rows_;
 };
 
@@ -52,11 +52,12 @@ struct LogEntry {
     std::int64_t position = 0;  ///< index of the object in the file
 };
 
-/// Entries come out ordered by (stamp, odometry < lidar < detections, label, position in file), so that permuted
-/// arrival gives the same run; what comes later than the reorder window allows is dropped as 'late'. Action-frame
-/// logs are ordered by position; their time is the step number times `step` where the stamps cannot be used.
+/// Entries come out ordered by (stamp, odometry < lidar < detections, label, position in file), so that
+/// permuted arrival gives the same run; what comes later than the reorder window allows is dropped as 'late'.
+/// Action-frame logs are ordered by position; their time is the step number times `step` where the stamps
+/// cannot be used.
 class RawlogReader {
-   public:
+  public:
     /// Throws LogError when the file is missing, empty or no rawlog.
     RawlogReader(const std::string& file, const LogParameters& parameters);
     ~RawlogReader();
@@ -76,7 +77,7 @@ class RawlogReader {
     /// Part of the file read so far, 0 to 1.
     double progress() const;
 
-   private:
+  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -8,10 +8,10 @@
 
 namespace slamot {
 
-/// Writes a gz-compressed log as FILE.part; `close` renames it and writes FILE.sha256 beside it (the format of
-/// sha256sum). A log is of observations or of frames, never both.
+/// Writes a gz-compressed log as FILE.part; `close` renames it and writes FILE.sha256 beside it (the format
+/// of sha256sum). A log is of observations or of frames, never both.
 class RawlogWriter {
-   public:
+  public:
     /// Throws LogError when the file cannot be written.
     explicit RawlogWriter(const std::string& file);
     /// Without `close`, the .part file stays.
@@ -21,7 +21,7 @@ class RawlogWriter {
     void writeFrame(const mrpt::obs::CActionCollection& action, const mrpt::obs::CSensoryFrame& observations);
     void close();
 
-   private:
+  private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -23,8 +23,8 @@ struct TrueTarget {
     std::string mode;
 };
 
-/// Which object a detection really came from; id -1 is clutter. `index` counts the detections of that stamp in
-/// the order of the log. `kind` is 'landmark', 'mover' or 'clutter'.
+/// Which object a detection really came from; id -1 is clutter. `index` counts the detections of that stamp
+/// in the order of the log. `kind` is 'landmark', 'mover' or 'clutter'.
 struct TrueAssociation {
     Stamp stamp;
     int index = 0;
@@ -33,16 +33,16 @@ struct TrueAssociation {
 };
 
 struct Truth {
-    std::vector<TruePose> robot;                              ///< rising stamps
-    std::map<SourceId, std::vector<TrueTarget>> targets;      ///< rising stamps each
+    std::vector<TruePose> robot;                          ///< rising stamps
+    std::map<SourceId, std::vector<TrueTarget>> targets;  ///< rising stamps each
     std::map<SourceId, Vector2> landmarks;
     std::vector<TrueAssociation> associations;
     /// truth.json: where it comes from and how good it is.
     std::string frame = "world", source;
     double position_std = 0;
 
-    /// Neighbours further apart than this are a gap: nothing is interpolated across it. A single sample answers
-    /// for its own stamp always.
+    /// Neighbours further apart than this are a gap: nothing is interpolated across it. A single sample
+    /// answers for its own stamp always.
     static constexpr double max_interpolation_gap = 0.1;
     std::optional<Pose2> robotAt(Stamp stamp) const;
     std::optional<TrueTarget> targetAt(SourceId id, Stamp stamp) const;
