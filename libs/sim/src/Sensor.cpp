@@ -42,8 +42,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
     const Pose2 mounting{sensor.position.x(), sensor.position.y(), sensor.orientation};
     const std::uint64_t sensor_seed = derivedSeed(seed, hashOf(sensor.label));
     const auto stream = [&](RandomPurpose purpose, std::uint32_t object) {
-        return RandomStream(sensor_seed, purpose, static_cast<std::uint32_t>(robot), static_cast<std::uint32_t>(step),
-                            object);
+        return RandomStream(sensor_seed, purpose, static_cast<std::uint32_t>(robot),
+                            static_cast<std::uint32_t>(step), object);
     };
     Matrix2 claim = Matrix2::Zero();
     claim.diagonal() << sensor.range_std * sensor.range_std, sensor.bearing_std * sensor.bearing_std;
@@ -67,7 +67,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
         RandomStream noise = stream(RandomPurpose::range_bearing, object);
         if (noise.uniform() < sensor.outlier_probability) return add(anywhere(sensor, noise), kind, id);
         // A range has no sign: what noise takes below zero comes back as its absolute value.
-        const double range = std::abs(z.x() + noise.normal(0, sensor.true_range_std.value_or(sensor.range_std)));
+        const double range =
+            std::abs(z.x() + noise.normal(0, sensor.true_range_std.value_or(sensor.range_std)));
         const double bearing_noise = noise.normal(0, sensor.true_bearing_std.value_or(sensor.bearing_std));
         add({range, wrapAngle(z.y() + bearing_noise)}, kind, id);
     };
@@ -90,7 +91,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
                      [](const Detected& a, const Detected& b) { return a.item.bearing < b.item.bearing; });
     Scan result;
     result.reading.stamp = stamp;
-    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range, sensor.field_of_view};
+    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range,
+                             sensor.field_of_view};
     result.range_std = sensor.range_std;
     result.bearing_std = sensor.bearing_std;
     for (Detected& d : detected) {
