@@ -23,6 +23,7 @@ struct SensorSummary {
 
 struct LogSummary {
     LogFormat format = LogFormat::observations;
+    bool timed_by_step = false;  ///< action frames only, see RawlogReader::timedByStep
     LogEnd end = LogEnd::clean;
     std::string end_message;
     std::int64_t objects = 0;
@@ -36,8 +37,12 @@ LogSummary summarise(const std::string& file, const LogParameters& parameters);
 std::string toJson(const LogSummary& summary);
 LogSummary logSummaryFromJson(const std::string& json);
 
-/// Runs `program check-log FILE` (which prints toJson(summarise(FILE))) with `memory_limit` bytes of address space
-/// and takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call before any thread is
+/// What the program started by summariseInChild does: lowers its own address space to `memory_limit` bytes (not in
+/// sanitizer builds, which reserve far more), prints toJson(summarise(file)) or the error, and returns its exit code.
+int checkLogMain(const std::string& file, const LogParameters& parameters, std::uint64_t memory_limit);
+
+/// Runs `program check-log FILE --memory-limit BYTES --reorder-window S --step S`, which must call checkLogMain, and
+/// takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call before any thread is
 /// started. Throws LogError when the child says the file cannot be used at all.
 LogSummary summariseInChild(const std::string& program, const std::string& file, const LogParameters& parameters,
                             std::uint64_t memory_limit = 2ull << 30);

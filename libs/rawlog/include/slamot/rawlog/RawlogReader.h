@@ -16,6 +16,9 @@
 
 namespace slamot {
 
+/// Step 0 of action-frame logs without usable stamps: 2020-01-01 00:00 UTC.
+inline constexpr Stamp action_frame_epoch{1'577'836'800 * Stamp::ticks_per_second};
+
 /// Section `[log]`: how a log is read.
 struct LogParameters {
     double reorder_window = 1.0;     ///< [s]
@@ -23,7 +26,8 @@ struct LogParameters {
 };
 ParameterTable describe(LogParameters& parameters);
 
-/// What was not used, by sensor label and reason. Reasons are short words: late, unknown-class, ...
+/// What was not used, by sensor label and reason. Reasons are short words; doc/file_formats.md lists those of the
+/// reader.
 class DropTable {
    public:
     void add(const std::string& sensor, const std::string& reason, std::int64_t count = 1);
@@ -61,9 +65,13 @@ class RawlogReader {
     std::optional<LogEntry> next();
 
     LogFormat format() const;
+    /// Action-frame logs only: their stamps cannot be used, the step number is their time.
+    bool timedByStep() const;
     LogEnd end() const;
     /// For LogEnd::truncated and corrupt: one sentence with object number and byte.
     const std::string& endMessage() const;
+    /// Objects read from the file so far.
+    std::int64_t objects() const;
     const DropTable& drops() const;
     /// Part of the file read so far, 0 to 1.
     double progress() const;

@@ -1,13 +1,15 @@
 #pragma once
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <memory>
 #include <string>
 
 namespace slamot {
 
-/// Writes an observations-only log, gz-compressed, as FILE.part; `close` renames it and writes FILE.sha256 beside
-/// it (the format of sha256sum).
+/// Writes a gz-compressed log as FILE.part; `close` renames it and writes FILE.sha256 beside it (the format of
+/// sha256sum). A log is of observations or of frames, never both.
 class RawlogWriter {
    public:
     /// Throws LogError when the file cannot be written.
@@ -16,6 +18,7 @@ class RawlogWriter {
     ~RawlogWriter();
 
     void write(const mrpt::obs::CObservation& observation);
+    void writeFrame(const mrpt::obs::CActionCollection& action, const mrpt::obs::CSensoryFrame& observations);
     void close();
 
    private:

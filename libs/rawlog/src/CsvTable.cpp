@@ -1,0 +1,134 @@
+#include "slamot/rawlog/CsvTable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "slamot/core/config/Parameters.h"
+#include "slamot/rawlog/LogError.h"
+
+namespace slamot {
+namespace {
+
+std::vector<std::string> splitAtCommas(const std::string& line) {
+    std::vector<std::string> fields;
+    for (std::size_t begin = 0;;) {
+        const std::size_t comma = line.find(',', begin);
+        std::string field = line.substr(begin, comma - begin);
+        const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
+        field.erase(field.begin(), std::find_if_not(field.begin(), field.end(), isBlank));
+        field.erase(std::find_if_not(field.rbegin(), field.rend(), isBlank).base(), field.end());
+        fields.push_back(std::move(field));
+        if (comma == std::string::npos) return fields;
+        begin = comma + 1;
+    }
+}
+
+void removeCarriageReturn(std::string& line) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+}
+
+void appendSeparator(std::string& line) {
+    if (!line.empty()) line += ',';
+}
+
+}  // namespace
+
+CsvReader::CsvReader(const std::string& file) : file_(file), in_(file) {
+    if (!std::filesystem::is_regular_file(file) || !in_)
+        throw LogError(fmt::format("{}: cannot be opened, expected a CSV table", file));
+    std::string line;
+    if (!std::getline(in_, line) || line.empty() || line == "\r")
+        throw LogError(fmt::format("{}:1: the header row is missing, expected the names of the columns", file));
+    removeCarriageReturn(line);
+    header_ = splitAtCommas(line);
+    line_ = 1;
+}
+
+bool CsvReader::has(const std::string& column) const {
+    return std::find(header_.begin(), header_.end(), column) != header_.end();
+}
+
+int CsvReader::column(const std::string& name) const {
+    const auto found = std::find(header_.begin(), header_.end(), name);
+    if (found == header_.end())
+        throw LogError(fmt::format("{}:1: column '{}' is missing, the header is '{}'", file_, name,
+                                   fmt::join(header_, ",")));
+    return static_cast<int>(found - header_.begin());
+}
+
+bool CsvReader::next() {
+    std::string line;
+    do {
+        if (!std::getline(in_, line)) return false;
+        ++line_;
+        removeCarriageReturn(line);
+    } while (line.empty());
+    const bool unfinished = in_.eof();
+    fields_ = splitAtCommas(line);
+    if (fields_.size() == header_.size()) return true;
+    if (unfinished) return false;
+    throw LogError(
+        fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_, fields_.size(), header_.size()));
+}
+
+bool CsvReader::empty(int column) const {
+    return fields_[column].empty();
+}
+
+std::string CsvReader::text(int column) const {
+    return fields_[column];
+}
+
+double CsvReader::number(int column) const {
+    if (empty(column) || fields_[column] == "nan") return std::numeric_limits<double>::quiet_NaN();
+    const auto value = numberFromText(fields_[column]);
+    if (!value) fail(column, "a number");
+    return *value;
+}
+
+std::int64_t CsvReader::integer(int column) const {
+    const std::string& field = fields_[column];
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc{} || end != field.data() + field.size()) fail(column, "an integer");
+    return value;
+}
+
+Stamp CsvReader::stamp(int column) const {
+    try {
+        return stampFromText(fields_[column]);
+    } catch (const std::invalid_argument&) {
+        fail(column, "a time in decimal seconds");
+    }
+}
+
+void CsvReader::fail(int column, const std::string& expected) const {
+    throw LogError(fmt::format("{}:{}: column '{}' is '{}', expected {}", file_, line_, header_[column],
+                               fields_[column], expected));
+}
+
+void appendField(std::string& line, double value) {
+    appendSeparator(line);
+    fmt::format_to(std::back_inserter(line), "{}", value);
+}
+
+void appendField(std::string& line, std::int64_t value) {
+    appendSeparator(line);
+    fmt::format_to(std::back_inserter(line), "{}", value);
+}
+
+void appendField(std::string& line, std::string_view text) {
+    appendSeparator(line);
+    line += text;
+}
+
+void appendField(std::string& line, Stamp stamp) {
+    appendField(line, std::string_view(toText(stamp)));
+}
+
+}  // namespace slamot

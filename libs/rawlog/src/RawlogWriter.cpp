@@ -1,0 +1,59 @@
+#include "slamot/rawlog/RawlogWriter.h"
+
+#include <fmt/format.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "GzStream.h"
+#include "slamot/rawlog/LogError.h"
+
+namespace slamot {
+
+namespace fs = std::filesystem;
+
+struct RawlogWriter::Impl {
+    explicit Impl(const std::string& name) : file(name), part(name + ".part"), bytes(part) {}
+
+    void write(const mrpt::serialization::CSerializable& object) {
+        auto archive = mrpt::serialization::archiveFrom(bytes);
+        archive << object;
+    }
+
+    std::string file, part;
+    GzWriter bytes;
+};
+
+RawlogWriter::RawlogWriter(const std::string& file) {
+    if (const fs::path folder = fs::path(file).parent_path(); !folder.empty() && !fs::is_directory(folder))
+        throw LogError(fmt::format("{}: cannot be written, there is no folder {}", file, folder.string()));
+    impl_ = std::make_unique<Impl>(file);
+}
+RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::write(const mrpt::obs::CObservation& observation) {
+    impl_->write(observation);
+}
+
+void RawlogWriter::writeFrame(const mrpt::obs::CActionCollection& action,
+                              const mrpt::obs::CSensoryFrame& observations) {
+    impl_->write(action);
+    impl_->write(observations);
+}
+
+void RawlogWriter::close() {
+    impl_->bytes.close();
+    // The old checksum goes first, so that a crash in between leaves a log without one, not with a wrong one.
+    const std::string checksum_file = impl_->file + ".sha256";
+    std::error_code error;
+    fs::remove(checksum_file, error);
+    fs::rename(impl_->part, impl_->file, error);
+    if (error) throw LogError(fmt::format("{}: cannot be renamed from .part ({})", impl_->file, error.message()));
+    std::ofstream out(checksum_file);
+    out << sha256OfFile(impl_->file) << "  " << fs::path(impl_->file).filename().string() << '\n';
+    out.close();
+    if (!out) throw LogError(fmt::format("{}: cannot be written", checksum_file));
+}
+
+}  // namespace slamot
