@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"SensorOfNobody", "[robot]\n[sensor.a]\nrobots = 2\n", "robot 2, which is not there"},
         Mistake{"NoLabel", "[robot]\n[sensor.]\n", "no label"},
         Mistake{"NoFile", "[robot]\n[world]\nkind = file\n", "needs the key 'file'"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& instance) { return instance.param.name; });
 
 TEST(Scenario, ProgramsAreHeldToTheSameRanges) {
     Scenario scenario = standingRobot(10);

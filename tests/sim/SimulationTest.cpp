@@ -226,8 +226,8 @@ TEST_P(Shipped, ScenarioGivesALogWithDetectionsOfEverySensor) {
 INSTANTIATE_TEST_SUITE_P(All, Shipped,
                          ::testing::Values("paper1.ini", "quiet.ini", "demo.ini", "two_robots.ini",
                                            "clutter.ini", "loop_600m.ini"),
-                         [](const auto& info) {
-                             const std::string name = info.param;
+                         [](const auto& instance) {
+                             const std::string name = instance.param;
                              return name.substr(0, name.find('.'));
                          });
 

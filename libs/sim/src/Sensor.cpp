@@ -40,6 +40,10 @@ Vector2 anywhere(const SensorParameters& sensor, RandomStream& random) {
 Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, int step, const Pose2& pose,
           const World& world, const std::vector<Trajectory>& movers, std::uint64_t seed) {
     const Pose2 mounting{sensor.position.x(), sensor.position.y(), sensor.orientation};
+    // Most landmarks of a large world are far away: left out without an arctangent, with a margin for
+    // rounding.
+    const Vector2 eye = (pose * mounting).position();
+    const double beyond = 1.001 * sensor.max_range;
     const std::uint64_t sensor_seed = derivedSeed(seed, hashOf(sensor.label));
     const auto stream = [&](RandomPurpose purpose, std::uint32_t object) {
         return RandomStream(sensor_seed, purpose, static_cast<std::uint32_t>(robot),
@@ -60,6 +64,7 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
     };
     const auto look = [&](const Vector2& point, bool is_mover, SourceId id) {
         const char* kind = is_mover ? "mover" : "landmark";
+        if ((point - eye).squaredNorm() > beyond * beyond) return;
         const Vector2 z = rangeBearing<double>(pose.vector(), point, mounting);
         if (!inView(sensor, z)) return;
         const std::uint32_t object = keyOf(is_mover, id);
