@@ -11,6 +11,10 @@ class DeadReckoning : public Estimator {
 
    public:
     std::string name() const override { return "dead_reckoning"; }
+    bool usesDetections() const override { return false; }
+    std::string missingInOdometry(const OdometryIncrement& odometry) const override {
+        return missingField(motion_, odometry);
+    }
 
    protected:
     std::vector<ParameterTable> onParameters() override;

@@ -12,6 +12,9 @@ class EkfSlamot : public Estimator {
 
    public:
     std::string name() const override { return "ekf_slamot"; }
+    std::string missingInOdometry(const OdometryIncrement& odometry) const override {
+        return missingField(motion_, odometry);
+    }
 
    protected:
     std::vector<ParameterTable> onParameters() override;
@@ -24,6 +27,7 @@ class EkfSlamot : public Estimator {
     std::vector<LandmarkEstimate> onLandmarks(const std::vector<LandmarkId>& ids) const override {
         return filter_->landmarks(ids);
     }
+    std::int64_t onLandmarkCount() const override { return filter_->landmarkCount(); }
     JointCovariance onJointCovariance() const override { return filter_->jointCovariance(); }
 
    private:

@@ -38,4 +38,16 @@ OdometrySplit split(const OdometryIncrement& entry, Stamp t) {
     return pieces;
 }
 
+OdometryIncrement extrapolate(const OdometryIncrement& entry, Stamp t) {
+    if (!(entry.t1 < t)) throw std::invalid_argument("an odometry entry is extrapolated beyond its interval");
+    const double fraction = secondsBetween(entry.t1, t) / entry.seconds();
+    OdometryIncrement beyond = entry;
+    beyond.t0 = entry.t1;
+    beyond.t1 = t;
+    beyond.entry_seconds = beyond.seconds();
+    beyond.increment = poseExp(fraction * poseLog(entry.increment));
+    if (entry.covariance) beyond.covariance = fraction * *entry.covariance;
+    return beyond;
+}
+
 }  // namespace slamot

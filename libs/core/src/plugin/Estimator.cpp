@@ -123,7 +123,11 @@ void Estimator::checkState(const char* after) const {
 
 Estimate Estimator::estimate() const {
     requireStarted("estimate");
-    return {now_, onRobot(), onTracks(), health_};
+    return {now_, onRobot(), onTracks(), onLandmarkCount(), health_};
+}
+
+std::string Estimator::missingInOdometry(const OdometryIncrement&) const {
+    return {};
 }
 
 std::vector<LandmarkEstimate> Estimator::onLandmarks(const std::vector<LandmarkId>& ids) const {

@@ -44,6 +44,7 @@ struct Estimate {
     Stamp stamp;
     PoseGaussian robot;
     std::vector<TrackEstimate> tracks;
+    std::int64_t landmark_count = 0;
     Health health;
 };
 

@@ -34,4 +34,7 @@ struct OdometrySplit {
 };
 OdometrySplit split(const OdometryIncrement& entry, Stamp t);
 
+/// What would follow on `entry` until `t` (after entry.t1) at the same body velocity.
+OdometryIncrement extrapolate(const OdometryIncrement& entry, Stamp t);
+
 }  // namespace slamot

@@ -61,6 +61,7 @@ class JointFilter {
     std::vector<TrackEstimate> tracks() const;
     std::vector<LandmarkEstimate> landmarks() const;
     std::vector<LandmarkEstimate> landmarks(const std::vector<LandmarkId>& ids) const;
+    std::int64_t landmarkCount() const { return static_cast<std::int64_t>(objects_.landmarks().size()); }
     JointCovariance jointCovariance() const;
 
     const JointState& state() const { return *state_; }

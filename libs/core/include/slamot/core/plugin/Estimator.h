@@ -83,6 +83,10 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     JointCovariance jointCovariance() const { return onJointCovariance(); }
     /// Names behind TrackEstimate::mode_probabilities.
     virtual std::vector<std::string> modeNames() const { return {}; }
+    /// Whether a log without detections makes sense to it.
+    virtual bool usesDetections() const { return true; }
+    /// Names the field of the odometry that this estimator's motion model reads and `odometry` lacks, else empty.
+    virtual std::string missingInOdometry(const OdometryIncrement& odometry) const;
 
     /// Smallest eigenvalue of a covariance, relative to the largest, that still counts as rounding.
     static constexpr double definiteness_tolerance = 1e-9;
@@ -100,6 +104,7 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     virtual std::vector<TrackEstimate> onTracks() const { return {}; }
     virtual std::vector<LandmarkEstimate> onLandmarks() const { return {}; }
     virtual std::vector<LandmarkEstimate> onLandmarks(const std::vector<LandmarkId>& ids) const;
+    virtual std::int64_t onLandmarkCount() const { return static_cast<std::int64_t>(onLandmarks().size()); }
     virtual JointCovariance onJointCovariance() const { return {}; }
 
    private:

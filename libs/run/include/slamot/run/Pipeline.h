@@ -1,0 +1,86 @@
+#pragma once
+// From log entries to estimates: the one place where odometry and detections are put in step. Push-based: the
+// caller reads (or receives) entries in order and pushes them.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slamot/core/plugin/Detector.h"
+#include "slamot/core/plugin/Estimator.h"
+#include "slamot/rawlog/Conventions.h"
+#include "slamot/rawlog/RawlogReader.h"
+#include "slamot/rawlog/Truth.h"
+#include "slamot/run/RunConfig.h"
+#include "slamot/run/Sink.h"
+
+namespace slamot::run {
+
+/// Counters of a pipeline.
+struct PipelineCounts {
+    std::int64_t odometry = 0, detection_sets = 0, detections = 0, scans = 0;
+    std::int64_t odometry_gaps = 0;   ///< entries longer than max_odometry_gap: bridged, and counted
+    std::int64_t extrapolated = 0;    ///< detection sets after the last odometry, reached at constant velocity
+    StageTimes times;
+};
+
+/// Detections are held until odometry covering their stamp has arrived; that entry is then split at the stamp. All
+/// range-bearing observations of one stamp become one DetectionSet. Detections before the first odometry or too
+/// long after the last are dropped and counted.
+class Pipeline {
+   public:
+    /// `truth` may be null; it is read for `[start] pose = truth` only.
+    Pipeline(const RunConfig& config, Estimator& estimator, Detector* detector, const Truth* truth, int threads,
+             std::vector<Sink*> sinks);
+
+    void push(const LogEntry& entry);
+    /// No more entries: processes what is held. `status` goes to the sinks.
+    void finish(RunStatus status);
+
+    const DropTable& drops() const { return drops_; }
+    const PipelineCounts& counts() const { return counts_; }
+    bool started() const { return started_; }
+    /// Why the first observation dropped as 'unusable' was, empty when none was.
+    const std::string& firstUnusable() const { return first_unusable_; }
+
+   private:
+    /// Observations of one stamp, waiting for odometry.
+    struct Held {
+        Stamp stamp;
+        std::vector<RangeBearingReading> readings;
+        std::vector<mrpt::obs::CObservation::Ptr> scans;
+    };
+
+    void pushOdometry(const OdometryReading& reading, const std::string& label);
+    void pushDetections(const RangeBearingReading& reading);
+    void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);
+    Held& holdFor(Stamp stamp);
+    void start(Stamp stamp);
+    /// Goes through an odometry entry, taking in what is held on the way.
+    void advance(const OdometryIncrement& odometry);
+    /// Predicts to `stamp` with the first part of `rest`, which keeps the remainder.
+    void predictTo(OdometryIncrement& rest, Stamp stamp);
+    void take(const Held& held);
+    void appendReading(const RangeBearingReading& reading, RangeBearingSet& set);
+    Matrix2 noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const;
+    void closeStep();
+
+    const RunConfig& config_;
+    Estimator& estimator_;
+    Detector* detector_;
+    const Truth* truth_;
+    int threads_;
+    std::vector<Sink*> sinks_;
+
+    DropTable drops_;
+    PipelineCounts counts_;
+    bool started_ = false;
+    std::string odometry_label_;
+    std::optional<OdometryReading> last_reading_;
+    std::optional<OdometryIncrement> last_increment_;
+    std::vector<Held> held_;  ///< in order of stamp
+    Step step_;               ///< of the estimator's present time; goes to the sinks when time moves on
+    std::string first_unusable_;
+};
+
+}  // namespace slamot::run

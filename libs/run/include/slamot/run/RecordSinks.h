@@ -1,0 +1,57 @@
+#pragma once
+// Sinks that keep a run in memory instead of files: for metrics, summaries and studies.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slamot/eval/RunRecord.h"
+#include "slamot/run/CsvSinks.h"
+
+namespace slamot::run {
+
+/// The run as the metrics want it; the same rows that the CSV sinks write.
+class RunRecorder : public Sink {
+   public:
+    RunRecorder(double interval, std::vector<std::string> mode_names) : clock_(interval) {
+        record_.mode_names = std::move(mode_names);
+    }
+    void step(const Step& step) override;
+    void end(const RunEnd& end) override { record_.landmarks = end.landmarks; }
+    const eval::RunRecord& record() const { return record_; }
+
+   private:
+    RowClock clock_;
+    eval::RunRecord record_;
+};
+
+/// SHA-256 over the bits of every robot pose, track and final landmark: two runs with equal hashes gave the same
+/// estimates.
+class EstimateHash : public Sink {
+   public:
+    EstimateHash();
+    ~EstimateHash() override;
+    void step(const Step& step) override;
+    void end(const RunEnd& end) override;
+    /// Hex; after the end.
+    const std::string& hex() const { return hex_; }
+
+   private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::string hex_;
+};
+
+/// Wall time of every step with detections [s], for percentiles.
+class StepTimer : public Sink {
+   public:
+    void step(const Step& step) override;
+    /// Quantile q of the time between two outputs with detections, prediction included; NaN without any.
+    double percentile(double q) const;
+    std::size_t count() const { return seconds_.size(); }
+
+   private:
+    double pending_ = 0;
+    std::vector<double> seconds_;
+};
+
+}  // namespace slamot::run

@@ -1,0 +1,58 @@
+#pragma once
+// What a run produces, step by step, and those who take it.
+#include <mrpt/obs/CObservation.h>
+
+#include <string>
+#include <vector>
+
+#include "slamot/core/data/Detections.h"
+#include "slamot/core/data/Estimate.h"
+#include "slamot/core/plugin/Estimator.h"
+
+namespace slamot::run {
+
+enum class RunStatus { complete, stopped, truncated, corrupt, failed };
+const char* toText(RunStatus status);
+
+/// Wall time [s] by stage.
+struct StageTimes {
+    double predict = 0, detect = 0, update = 0;
+    StageTimes& operator+=(const StageTimes& other) {
+        predict += other.predict;
+        detect += other.detect;
+        update += other.update;
+        return *this;
+    }
+};
+
+/// One stamp, after all its events.
+struct Step {
+    Estimate estimate;
+    /// What was taken in at this stamp; both empty when nothing was.
+    bool has_detections = false;
+    DetectionSet detections;
+    UpdateReport report;
+    /// The landmarks named in the report, after the update.
+    std::vector<LandmarkEstimate> touched;
+    StageTimes times;
+};
+
+/// The end of a run.
+struct RunEnd {
+    RunStatus status = RunStatus::complete;
+    Estimate estimate;
+    std::vector<LandmarkEstimate> landmarks;
+    /// For what is expensive and only some sinks want.
+    const Estimator* estimator = nullptr;
+};
+
+class Sink {
+   public:
+    virtual ~Sink() = default;
+    /// Every observation of the log that the run was given, in order.
+    virtual void observation(const mrpt::obs::CObservation&) {}
+    virtual void step(const Step& step) = 0;
+    virtual void end(const RunEnd&) {}
+};
+
+}  // namespace slamot::run

@@ -1,0 +1,322 @@
+#include "slamot/run/Pipeline.h"
+
+#include <fmt/format.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "slamot/rawlog/LogError.h"
+
+namespace slamot::run {
+namespace {
+
+/// Adds the wall time of its life to a stage.
+class StageClock {
+   public:
+    explicit StageClock(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+    ~StageClock() {
+        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+   private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+bool isScan(const mrpt::obs::CObservation& observation) {
+    return dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) ||
+           dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation) ||
+           dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+}
+
+const char* whyUnusable(const RangeBearingReading::Item& item) {
+    if (!std::isfinite(item.range) || !std::isfinite(item.bearing)) return "not-finite";
+    if (item.range <= 0) return "range-not-positive";
+    return nullptr;
+}
+
+void appendSet(const RangeBearingSet& detected, RangeBearingSet& set) {
+    const int offset = static_cast<int>(set.sensors.size());
+    set.sensors.insert(set.sensors.end(), detected.sensors.begin(), detected.sensors.end());
+    for (RangeBearingDetection detection : detected.detections) {
+        detection.sensor += offset;
+        set.detections.push_back(detection);
+    }
+}
+
+}  // namespace
+
+const char* toText(RunStatus status) {
+    switch (status) {
+        case RunStatus::complete: return "complete";
+        case RunStatus::stopped: return "stopped";
+        case RunStatus::truncated: return "truncated";
+        case RunStatus::corrupt: return "corrupt";
+        case RunStatus::failed: return "failed";
+    }
+    return "failed";
+}
+
+Pipeline::Pipeline(const RunConfig& config, Estimator& estimator, Detector* detector, const Truth* truth, int threads,
+                   std::vector<Sink*> sinks)
+    : config_(config),
+      estimator_(estimator),
+      detector_(detector),
+      truth_(truth),
+      threads_(threads),
+      sinks_(std::move(sinks)) {}
+
+void Pipeline::push(const LogEntry& entry) {
+    if (entry.increment) {
+        if (!started_) start(entry.increment->t0);
+        ++counts_.odometry;
+        advance(*entry.increment);
+        return;
+    }
+    const mrpt::obs::CObservation& observation = *entry.observation;
+    for (Sink* sink : sinks_) sink->observation(observation);
+
+    try {
+        if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
+            pushOdometry(fromMrpt(*odometry), odometry->sensorLabel);
+        else if (const auto* seen = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation))
+            pushDetections(fromMrpt(*seen));
+        else if (isScan(observation))
+            pushScan(entry.observation, entry.stamp);
+        else
+            drops_.add(observation.sensorLabel, std::string("unused-class-") + observation.GetRuntimeClass()->className);
+    } catch (const LogError& error) {
+        drops_.add(observation.sensorLabel, "unusable");
+        if (first_unusable_.empty()) first_unusable_ = error.what();
+    }
+}
+
+void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
+    ++counts_.scans;
+    const auto role = config_.sensors.of(scan->sensorLabel).value_or(SensorRole::lidar);
+    const char* reason = role != SensorRole::lidar ? "role-ignore"
+                         : !detector_              ? "no-detector"
+                         : !started_               ? "before-odometry"
+                                                   : nullptr;
+    if (reason)
+        drops_.add(scan->sensorLabel, reason);
+    else
+        holdFor(stamp).scans.push_back(scan);
+}
+
+void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& label) {
+    if (config_.odometry != "auto" && label != config_.odometry) {
+        drops_.add(label, "other-odometry");
+        return;
+    }
+    if (!last_reading_)
+        odometry_label_ = label;
+    else if (label != odometry_label_)
+        throw ConfigError(fmt::format("the log has odometry of several labels, '{}' and '{}': choose one with [run] "
+                                      "odometry",
+                                      odometry_label_, label));
+    if (!started_) start(reading.stamp);
+    ++counts_.odometry;
+    if (last_reading_ && reading.stamp > last_reading_->stamp) {
+        OdometryIncrement odometry;
+        odometry.t0 = last_reading_->stamp;
+        odometry.t1 = reading.stamp;
+        odometry.increment = inverse(last_reading_->pose) * reading.pose;
+        odometry.velocity = reading.velocity;
+        odometry.entry_seconds = odometry.seconds();
+        advance(odometry);
+    } else if (last_reading_) {
+        drops_.add(label, "same-stamp");
+        return;
+    }
+    last_reading_ = reading;
+}
+
+void Pipeline::pushDetections(const RangeBearingReading& reading) {
+    const auto role = config_.sensors.of(reading.sensor.label);
+    if (!role || *role == SensorRole::ignore || *role == SensorRole::lidar) {
+        drops_.add(reading.sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
+        return;
+    }
+    if (!started_) {
+        drops_.add(reading.sensor.label, "before-odometry");
+        return;
+    }
+    holdFor(reading.stamp).readings.push_back(reading);
+}
+
+Pipeline::Held& Pipeline::holdFor(Stamp stamp) {
+    if (held_.empty() || held_.back().stamp != stamp) held_.push_back({stamp, {}, {}});
+    return held_.back();
+}
+
+void Pipeline::start(Stamp stamp) {
+    Start begin;
+    begin.stamp = stamp;
+    begin.seed = config_.seed;
+    begin.threads = threads_;
+    const double position = config_.start.position_std, heading = config_.start.heading_std;
+    begin.pose.covariance = Vector3(position * position, position * position, heading * heading).asDiagonal();
+    switch (config_.start.kind) {
+        case StartPose::zero: break;
+        case StartPose::given: begin.pose.mean = config_.start.pose; break;
+        case StartPose::truth: {
+            const auto pose = truth_ ? truth_->robotAt(stamp) : std::nullopt;
+            if (!pose)
+                throw ConfigError(fmt::format("[start] pose = truth, but {} at {}, where the run starts",
+                                              truth_ ? "the truth has no robot pose" : "no truth was given",
+                                              slamot::toText(stamp)));
+            begin.pose.mean = *pose;
+            break;
+        }
+    }
+    estimator_.start(begin);
+    started_ = true;
+}
+
+void Pipeline::advance(const OdometryIncrement& odometry) {
+    if (const std::string missing = estimator_.missingInOdometry(odometry); !missing.empty())
+        throw ConfigError(fmt::format("the log's odometry has no {}, which [motion] model needs; choose another model",
+                                      missing));
+    if (odometry.seconds() > config_.max_odometry_gap) ++counts_.odometry_gaps;
+    OdometryIncrement rest = odometry;
+    for (const Held& held : held_) {
+        predictTo(rest, held.stamp);
+        take(held);
+    }
+    held_.clear();
+    predictTo(rest, odometry.t1);
+    last_increment_ = odometry;
+}
+
+void Pipeline::predictTo(OdometryIncrement& rest, Stamp stamp) {
+    if (stamp <= estimator_.time()) return;
+    OdometryIncrement piece = rest;
+    if (stamp < rest.t1) {
+        OdometrySplit pieces = split(rest, stamp);
+        piece = pieces.before;
+        rest = pieces.after;
+    }
+    closeStep();
+    const StageClock clock(step_.times.predict);
+    estimator_.predict(piece);
+}
+
+void Pipeline::take(const Held& held) {
+    DetectionSet set;
+    set.stamp = held.stamp;
+    auto& range_bearing = std::get<RangeBearingSet>(set.measurements);
+    for (const RangeBearingReading& reading : held.readings) appendReading(reading, range_bearing);
+    std::vector<Detected> detected;
+    for (const auto& scan : held.scans) {
+        const StageClock clock(step_.times.detect);
+        detected.push_back(detector_->detect(*scan, estimator_.robot()));
+        appendSet(detected.back().detections, range_bearing);
+    }
+    {
+        const StageClock clock(step_.times.update);
+        step_.report = estimator_.update(set);
+    }
+    for (std::size_t i = 0; i < held.scans.size(); ++i) {
+        const StageClock clock(step_.times.detect);
+        detector_->integrate(*held.scans[i], estimator_.robot(), detected[i].classes);
+    }
+    step_.has_detections = true;
+    ++counts_.detection_sets;
+    counts_.detections += static_cast<std::int64_t>(range_bearing.detections.size());
+    step_.detections = std::move(set);
+}
+
+void Pipeline::appendReading(const RangeBearingReading& reading, RangeBearingSet& set) {
+    const SensorRole role = *config_.sensors.of(reading.sensor.label);
+    const int sensor = static_cast<int>(set.sensors.size());
+    set.sensors.push_back(reading.sensor);
+    for (const RangeBearingReading::Item& item : reading.items) {
+        if (const char* reason = whyUnusable(item)) {
+            drops_.add(reading.sensor.label, reason);
+            continue;
+        }
+        RangeBearingDetection detection;
+        detection.range = item.range;
+        detection.bearing = wrapAngle(item.bearing);
+        detection.covariance = noiseOf(reading, item);
+        detection.kind = role == SensorRole::landmarks ? ObjectKind::landmark
+                         : role == SensorRole::movers  ? ObjectKind::mover
+                                                       : ObjectKind::unknown;
+        const Identities shown =
+            detection.kind == ObjectKind::mover ? config_.mover_identities : config_.landmark_identities;
+        if (shown == Identities::log && detection.kind != ObjectKind::unknown) detection.source = item.id;
+        detection.sensor = sensor;
+        set.detections.push_back(detection);
+    }
+}
+
+Matrix2 Pipeline::noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const {
+    NoiseOverride noise = config_.noise;
+    if (const auto found = config_.noise_by_label.find(reading.sensor.label); found != config_.noise_by_label.end()) {
+        if (found->second.range_std) noise.range_std = found->second.range_std;
+        if (found->second.range_std_per_m) noise.range_std_per_m = found->second.range_std_per_m;
+        if (found->second.bearing_std) noise.bearing_std = found->second.bearing_std;
+    }
+    Matrix2 covariance = item.covariance;
+    const auto replace = [&covariance](int i, double deviation) {
+        covariance(0, 1) = covariance(1, 0) = 0;
+        covariance(i, i) = deviation * deviation;
+    };
+    if (noise.range_std || noise.range_std_per_m)
+        replace(0, noise.range_std.value_or(0) + noise.range_std_per_m.value_or(0) * item.range);
+    if (noise.bearing_std) replace(1, *noise.bearing_std);
+    if (!(covariance(0, 0) > 0 && covariance(1, 1) > 0 && covariance.determinant() > 0))
+        throw ConfigError(fmt::format("sensor '{}' claims no usable noise: set [noise.{}] range_std and bearing_std_deg",
+                                      reading.sensor.label,
+                                      reading.sensor.label.empty() ? "<label>" : reading.sensor.label));
+    return covariance;
+}
+
+void Pipeline::closeStep() {
+    step_.estimate = estimator_.estimate();
+    std::vector<LandmarkId> touched;
+    for (const Innovation& innovation : step_.report.innovations)
+        if (innovation.landmark.valid()) touched.push_back(innovation.landmark);
+    if (!touched.empty()) step_.touched = estimator_.landmarks(touched);
+    counts_.times += step_.times;
+    for (Sink* sink : sinks_) sink->step(step_);
+    step_ = {};
+}
+
+void Pipeline::finish(RunStatus status) {
+    if (!started_) return;
+    for (const Held& held : held_) {
+        const double beyond = secondsBetween(estimator_.time(), held.stamp);
+        const bool reachable = beyond == 0 || (last_increment_ && beyond <= config_.max_odometry_gap);
+        if (!reachable) {
+            for (const auto& reading : held.readings) drops_.add(reading.sensor.label, "after-odometry");
+            for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, "after-odometry");
+            continue;
+        }
+        if (beyond > 0) {
+            OdometryIncrement beyond_last = extrapolate(*last_increment_, held.stamp);
+            predictTo(beyond_last, held.stamp);
+            last_increment_ = beyond_last;
+            ++counts_.extrapolated;
+        }
+        take(held);
+    }
+    held_.clear();
+    closeStep();
+
+    RunEnd end;
+    end.status = status;
+    end.estimate = estimator_.estimate();
+    end.landmarks = estimator_.landmarks();
+    end.estimator = &estimator_;
+    for (Sink* sink : sinks_) sink->end(end);
+}
+
+}  // namespace slamot::run

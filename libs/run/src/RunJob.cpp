@@ -1,0 +1,155 @@
+#include "slamot/run/RunJob.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+
+#include "slamot/eval/Metrics.h"
+#include "slamot/rawlog/LogError.h"
+#include "slamot/run/CsvSinks.h"
+#include "slamot/run/MrptSinks.h"
+#include "slamot/run/RecordSinks.h"
+#include "slamot/run/Summary.h"
+
+namespace slamot::run {
+namespace {
+
+/// Files a run may have left in its folder before: removed first, so that no old file passes for a new one.
+void clearOutputs(const std::string& folder) {
+    for (const char* name :
+         {"trajectory.csv", "trajectory.tum", "tracks.csv", "landmarks.csv", "landmarks_history.csv", "innovations.csv",
+          "steps.csv", "correlation.bin", "map.landmarks.gz", "scene.3Dscene", "estimate.rawlog",
+          "estimate.rawlog.sha256", "summary.json", "overview.svg", "overview.png", "overview.vg.json"})
+        for (const char* suffix : {"", ".part"}) std::filesystem::remove(folder + "/" + name + suffix);
+}
+
+std::vector<std::unique_ptr<Sink>> fileSinks(const RunConfig& config, const std::string& folder,
+                                             const std::vector<std::string>& mode_names) {
+    const OutputParameters& output = config.output;
+    std::vector<std::unique_ptr<Sink>> sinks;
+    sinks.push_back(std::make_unique<TrajectorySink>(folder, output.interval));
+    sinks.push_back(std::make_unique<TracksSink>(folder, output.interval, mode_names));
+    sinks.push_back(std::make_unique<LandmarksSink>(folder));
+    if (output.innovations) sinks.push_back(std::make_unique<InnovationsSink>(folder));
+    if (output.landmarks_history) sinks.push_back(std::make_unique<LandmarksHistorySink>(folder));
+    if (output.steps) sinks.push_back(std::make_unique<StepsSink>(folder));
+    if (output.correlation) sinks.push_back(std::make_unique<CorrelationSink>(folder));
+    if (output.map) sinks.push_back(std::make_unique<LandmarkMapSink>(folder));
+    if (output.scene) sinks.push_back(std::make_unique<SceneSink>(folder));
+    if (output.rawlog) sinks.push_back(std::make_unique<EstimateLogSink>(folder));
+    return sinks;
+}
+
+/// Keeps the end of the run for the summary.
+class EndKeeper : public Sink {
+   public:
+    void step(const Step&) override {}
+    void end(const RunEnd& end) override { kept = end; }
+    RunEnd kept;
+};
+
+std::string dropsInWords(const DropTable& drops) {
+    std::string text;
+    for (const auto& [key, count] : drops.rows())
+        text += fmt::format("{}{} of '{}' ({})", text.empty() ? "" : ", ", count, key.first, key.second);
+    return text.empty() ? "nothing else was in it" : "not used: " + text;
+}
+
+/// A run that used nothing is an error that says what was found.
+void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std::string& log, const DropTable& drops) {
+    const std::string detail = pipeline.firstUnusable().empty() ? "" : "; first: " + pipeline.firstUnusable();
+    if (!pipeline.started())
+        throw LogError(fmt::format("{}: has no odometry to start with (CObservationOdometry, or actions of "
+                                   "action-frame logs); {}{}",
+                                   log, dropsInWords(drops), detail));
+    if (estimator.usesDetections() && pipeline.counts().detections == 0)
+        throw LogError(fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
+                                   "[sensors], or lidar with a detector); {}{}",
+                                   log, estimator.name(), dropsInWords(drops), detail));
+}
+
+RunStatus statusOf(const RawlogReader& reader, bool stopped) {
+    if (stopped) return RunStatus::stopped;
+    if (reader.end() == LogEnd::truncated) return RunStatus::truncated;
+    return reader.end() == LogEnd::corrupt ? RunStatus::corrupt : RunStatus::complete;
+}
+
+}  // namespace
+
+RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
+    const auto wall_begin = std::chrono::steady_clock::now();
+    const std::clock_t cpu_begin = std::clock();
+    const AssembledRun assembled = assembleRun(request.config, registry);
+    eval::EvaluationOptions evaluation;
+    load(describe(evaluation), request.config);
+    RawlogReader reader(request.log_file, assembled.config.log);
+
+    const std::string& folder = request.out_folder;
+    std::filesystem::create_directories(folder);
+    clearOutputs(folder);
+    const auto files = fileSinks(assembled.config, folder, assembled.estimator->modeNames());
+    RunRecorder recorder(assembled.config.output.interval, assembled.estimator->modeNames());
+    EstimateHash hash;
+    StepTimer timer;
+    EndKeeper end;
+    std::vector<Sink*> sinks{&recorder, &hash, &timer, &end};
+    for (const auto& sink : files) sinks.push_back(sink.get());
+
+    Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), request.truth, request.threads,
+                      sinks);
+    std::int64_t entries = 0;
+    bool stopped = false;
+    while (auto entry = reader.next()) {
+        pipeline.push(*entry);
+        if (++entries % 64 == 0 && request.progress) request.progress(reader.progress());
+        if (request.stop && request.stop->load()) {
+            stopped = true;
+            break;
+        }
+    }
+    DropTable drops = reader.drops();
+    for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
+    const RunStatus status = statusOf(reader, stopped);
+    if (!pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    pipeline.finish(status);
+    if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+
+    RunResult result;
+    result.status = status;
+    result.end_message = reader.endMessage();
+    result.estimate_hash = hash.hex();
+    result.record = recorder.record();
+
+    SummaryInput summary;
+    summary.status = status;
+    summary.end_message = result.end_message;
+    summary.log_file = request.log_file;
+    summary.truth_folder = request.truth ? request.truth_folder : "";
+    summary.canonical_config = assembled.canonical_config;
+    summary.estimator = assembled.estimator->name();
+    summary.detector = assembled.config.detector;
+    summary.estimate_hash = result.estimate_hash;
+    summary.seed = assembled.config.seed;
+    summary.threads = request.threads;
+    summary.counts = &pipeline.counts();
+    summary.timer = &timer;
+    summary.drops = drops;
+    summary.end = end.kept;
+    if (request.truth) {
+        const eval::Metrics metrics = eval::evaluate(result.record, *request.truth, evaluation);
+        summary.metrics = eval::toJson(metrics);
+        result.metrics_table = eval::summaryTable(metrics);
+    }
+    summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
+    summary.cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
+    result.summary = makeSummary(summary);
+    PartFile file(folder + "/summary.json");
+    file.line(result.summary.dump(2));
+    file.close();
+    return result;
+}
+
+}  // namespace slamot::run

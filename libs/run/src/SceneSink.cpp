@@ -1,0 +1,94 @@
+#include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/stock_objects.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "slamot/rawlog/LogError.h"
+#include "slamot/run/MrptSinks.h"
+
+namespace slamot::run {
+namespace {
+
+/// Colours that colour-blind people can tell apart (Okabe and Ito).
+const mrpt::img::TColor robot_colour(0, 114, 178), landmark_colour(0, 158, 115);
+const mrpt::img::TColor track_colours[] = {{213, 94, 0}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
+
+mrpt::opengl::CEllipsoid2D::Ptr ellipse(const Vector2& mean, const Matrix2& covariance, const mrpt::img::TColor& colour) {
+    auto out = mrpt::opengl::CEllipsoid2D::Create();
+    mrpt::math::CMatrixDouble22 c;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) c(i, j) = covariance(i, j);
+    out->setCovMatrix(c);
+    out->setQuantiles(3.0f);
+    out->setLocation(mean.x(), mean.y(), 0);
+    out->setColor_u8(colour);
+    out->set2DsegmentsCount(30);
+    return out;
+}
+
+}  // namespace
+
+struct SceneSink::Impl {
+    std::string folder;
+    std::vector<Vector2> robot;
+    std::map<TrackId, std::vector<Vector2>> tracks;
+
+    static mrpt::opengl::CSetOfLines::Ptr path(const std::vector<Vector2>& points, const mrpt::img::TColor& colour) {
+        auto lines = mrpt::opengl::CSetOfLines::Create();
+        lines->setColor_u8(colour);
+        lines->setLineWidth(2.0f);
+        for (std::size_t i = 1; i < points.size(); ++i)
+            lines->appendLine(points[i - 1].x(), points[i - 1].y(), 0, points[i].x(), points[i].y(), 0);
+        return lines;
+    }
+};
+
+SceneSink::SceneSink(std::string folder) : impl_(std::make_unique<Impl>()) {
+    impl_->folder = std::move(folder);
+}
+
+SceneSink::~SceneSink() = default;
+
+void SceneSink::step(const Step& step) {
+    if (!step.has_detections) return;
+    impl_->robot.push_back(step.estimate.robot.mean.position());
+    for (const TrackEstimate& track : step.estimate.tracks) impl_->tracks[track.id].push_back(track.mean.head<2>());
+}
+
+void SceneSink::end(const RunEnd& end) {
+    mrpt::opengl::COpenGLScene scene;
+    double extent = 10;
+    const auto reach = [&extent](const Vector2& p) { extent = std::max(extent, p.cwiseAbs().maxCoeff()); };
+    for (const Vector2& p : impl_->robot) reach(p);
+    for (const LandmarkEstimate& l : end.landmarks) reach(l.mean);
+    const double cell = std::pow(10.0, std::floor(std::log10(extent)));
+    const auto side = static_cast<float>(std::ceil(extent / cell) * cell);
+    auto ground = mrpt::opengl::CGridPlaneXY::Create(-side, side, -side, side, 0.0f, static_cast<float>(0.5 * cell));
+    ground->setColor(0.8f, 0.8f, 0.8f);
+    scene.insert(ground);
+
+    scene.insert(Impl::path(impl_->robot, robot_colour));
+    std::size_t k = 0;
+    for (const auto& [id, points] : impl_->tracks) scene.insert(Impl::path(points, track_colours[k++ % std::size(track_colours)]));
+    for (const LandmarkEstimate& l : end.landmarks) scene.insert(ellipse(l.mean, l.covariance, landmark_colour));
+
+    const auto& [pose, covariance] = end.estimate.robot;
+    scene.insert(ellipse(pose.position(), covariance.topLeftCorner<2, 2>(), robot_colour));
+    auto robot = mrpt::opengl::stock_objects::RobotPioneer();
+    robot->setPose(mrpt::poses::CPose3D(pose.x, pose.y, 0, pose.theta, 0, 0));
+    scene.insert(robot);
+
+    const std::string file = impl_->folder + "/scene.3Dscene";
+    // MRPT picks the format by the name, so the unfinished file keeps the ending.
+    const std::string part = impl_->folder + "/scene.part.3Dscene";
+    if (!scene.saveToFile(part)) throw LogError(file + ": cannot be written");
+    std::filesystem::rename(part, file);
+}
+
+}  // namespace slamot::run

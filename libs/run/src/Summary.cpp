@@ -1,0 +1,74 @@
+#include "slamot/run/Summary.h"
+
+#include <sys/resource.h>
+
+#include "slamot/core/Version.h"
+
+namespace slamot::run {
+namespace {
+
+nlohmann::json number(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+double peakMemoryMegabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+nlohmann::json makeSummary(const SummaryInput& in) {
+    nlohmann::json drops = nlohmann::json::array();
+    for (const auto& [key, count] : in.drops.rows())
+        drops.push_back({{"sensor", key.first}, {"reason", key.second}, {"count", count}});
+
+    const Health& health = in.end.estimate.health;
+    const PipelineCounts& counts = *in.counts;
+    nlohmann::json summary = {
+        {"program", "slamot"},
+        {"version", version},
+        {"status", toText(in.status)},
+        {"log", in.log_file},
+        {"truth", in.truth_folder.empty() ? nlohmann::json() : nlohmann::json(in.truth_folder)},
+        {"estimator", in.estimator},
+        {"detector", in.detector},
+        {"seed", in.seed},
+        {"threads", in.threads},
+        {"config", in.canonical_config},
+        {"estimate_sha256", in.estimate_hash},
+        {"counts",
+         {{"odometry", counts.odometry},
+          {"odometry_gaps", counts.odometry_gaps},
+          {"scans", counts.scans},
+          {"detection_sets", counts.detection_sets},
+          {"detections", counts.detections},
+          {"detection_sets_extrapolated", counts.extrapolated},
+          {"detections_used", health.detections_used},
+          {"detections_inflated", health.detections_inflated},
+          {"detections_rejected", health.detections_rejected},
+          {"detections_ignored", health.detections_ignored},
+          {"landmarks", in.end.estimate.landmark_count},
+          {"tracks_at_end", in.end.estimate.tracks.size()}}},
+        {"drops", drops},
+        {"time",
+         {{"wall_s", in.wall_seconds},
+          {"cpu_s", in.cpu_seconds},
+          {"predict_s", counts.times.predict},
+          {"detect_s", counts.times.detect},
+          {"update_s", counts.times.update},
+          {"steps", in.timer->count()},
+          {"step_ms",
+           {{"p50", number(1e3 * in.timer->percentile(0.50))},
+            {"p95", number(1e3 * in.timer->percentile(0.95))},
+            {"p99", number(1e3 * in.timer->percentile(0.99))},
+            {"max", number(1e3 * in.timer->percentile(1.0))}}}}},
+        {"peak_memory_mb", peakMemoryMegabytes()},
+        {"metrics", in.metrics},
+    };
+    if (!in.end_message.empty()) summary["end_message"] = in.end_message;
+    return summary;
+}
+
+}  // namespace slamot::run
