@@ -48,6 +48,7 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
     UpdateReport report;
     batch_.clear();
     const int count = static_cast<int>(set.rangeBearing().detections.size());
+    report.innovations.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) report.innovations.push_back(match(set, i));
 
     state_->update(batch_, parameters_.consistency);
