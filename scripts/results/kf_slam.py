@@ -20,7 +20,7 @@ from kf_slam_truth import write_truth
 
 DATASETS = pathlib.Path("/usr/share/mrpt/datasets")
 DENSITY = 0.3  # landmarks per m^2
-MAX_RANGE = 7  # [m]
+MAX_RANGE = 8  # [m]
 FILTERS = ("kf-slam", "classic", "invariant")
 
 # A square path in the middle of a square world, one and a quarter times round: the map grows on the first round and
@@ -76,9 +76,9 @@ def demo(folder):
     return log
 
 
-def measure(program, config, logs, repetitions, range_std, steps):
+def measure(program, config, logs, repetitions, range_std, extra):
     command = [program, *logs, "--config", config, "--repetitions", str(repetitions), "--range-std", str(range_std)]
-    return json.loads(subprocess.run(command + ["--steps"] * steps, check=True, stdout=subprocess.PIPE).stdout)
+    return json.loads(subprocess.run(command + extra, check=True, stdout=subprocess.PIPE).stdout)
 
 
 def spread(values, digits):
@@ -144,7 +144,10 @@ def main():
     parser.add_argument("--logs", type=int, default=5, help="logs of each size")
     parser.add_argument("--repetitions", type=int, default=5, help="passes over the demo; other logs are passed once")
     parser.add_argument("--range-std", type=float, default=0.03, help="[m], given to both; logs have 0.01")
+    parser.add_argument("--certain-start", action="store_true",
+                        help="slamot too takes the movements before the first detection as certain")
     a = parser.parse_args()
+    extra = ["--certain-start"] if a.certain_start else []
     a.out.mkdir(parents=True, exist_ok=True)
     program = a.build / "bin" / "kf_slam_comparison"
     config = pathlib.Path(__file__).resolve().parents[2] / "config" / "runs" / "kf_slam_demo.ini"
@@ -153,7 +156,8 @@ def main():
     jobs += [(f"{n} landmarks", [simulate(a.out, n, seed) for seed in range(1, a.logs + 1)], 1) for n in a.sizes]
     results, groups = {}, []
     for name, logs, repetitions in jobs:
-        result = measure(program, config, logs, repetitions, a.range_std, steps=True)
+        figure = ["--figure", str(a.out / "kf_slam_time")] if a.sizes and name == jobs[-1][0] else []
+        result = measure(program, config, logs, repetitions, a.range_std, extra + figure)
         results[name] = result
         groups.append((name, [trial for log in result["logs"] for trial in log["trials"]]))
     (a.out / "kf_slam.json").write_text(json.dumps(results))

@@ -27,7 +27,8 @@ class TrialSink : public run::Sink {
 
 }  // namespace
 
-Trial runSlamot(const std::string& log, const std::string& config_file, const std::vector<std::string>& settings) {
+Trial runSlamot(const std::string& log, const std::string& config_file, const std::vector<std::string>& settings,
+                bool certain_start) {
     static const PluginRegistry registry = PluginRegistry::discover();
     Config config = Config::fromFile(config_file);
     for (const std::string& setting : settings) config.setFromAssignment(setting);
@@ -35,7 +36,12 @@ Trial runSlamot(const std::string& log, const std::string& config_file, const st
 
     RawlogReader reader(log, assembled.config.log);
     std::vector<LogEntry> entries;
-    while (auto entry = reader.next()) entries.push_back(std::move(*entry));
+    bool moved_and_seen = false;
+    while (auto entry = reader.next()) {
+        if (certain_start && entry->increment && !moved_and_seen) entry->increment->covariance = Matrix3::Zero();
+        moved_and_seen |= !entry->increment && !entries.empty() && entries.back().increment;
+        entries.push_back(std::move(*entry));
+    }
     if (reader.end() != LogEnd::clean) throw std::runtime_error(log + ": " + reader.endMessage());
 
     Trial trial;

@@ -140,6 +140,7 @@ PoseGaussian JointFilter::robot() const {
 
 std::vector<TrackEstimate> JointFilter::tracks() const {
     std::vector<TrackEstimate> out;
+    out.reserve(objects_.tracks().size());
     for (const TrackRecord& track : objects_.tracks()) {
         TrackEstimate estimate;
         estimate.id = track.id;
