@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "slamot/core/data/Angle.h"
 #include "support/Expect.h"
 
 namespace slamot {

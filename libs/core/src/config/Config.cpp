@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/core/exceptions.h>
 
 #include <algorithm>
 #include <cctype>
@@ -78,10 +77,12 @@ Places scan(const std::string& text, const std::string& name) {
     return places;
 }
 
-/// What MRPT says is wrong, without its call stack.
+/// What MRPT says is wrong, without where in MRPT and its call stack.
 std::string sentenceOf(const std::exception& error) {
-    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    return with_stack ? with_stack->originalWhat : error.what();
+    const std::string text = error.what(), label = "Message:";
+    const auto found = text.find(label);
+    const auto begin = found == std::string::npos ? 0 : found + label.size();
+    return trimmed(text.substr(begin, text.find('\n', begin) - begin));
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {
