@@ -16,7 +16,7 @@ namespace slamot {
 class CLASS : public Estimator {
     SLAMOT_DEFINE(CLASS)
 
-   public:
+  public:
     CLASS() {
 #if defined(THROWS)
         throw std::runtime_error("no licence for this planet");
@@ -24,14 +24,22 @@ class CLASS : public Estimator {
         throw 42;
 #endif
     }
-    std::string name() const override { return SLAMOT_TEXT(NAME); }
+    std::string name() const override {
+        return SLAMOT_TEXT(NAME);
+    }
 
-   protected:
-    std::vector<ParameterTable> onParameters() override { return {}; }
+  protected:
+    std::vector<ParameterTable> onParameters() override {
+        return {};
+    }
     void onStart(const Start&) override {}
     void onPredict(const OdometryIncrement&) override {}
-    UpdateReport onUpdate(const DetectionSet&) override { return {}; }
-    PoseGaussian onRobot() const override { return {}; }
+    UpdateReport onUpdate(const DetectionSet&) override {
+        return {};
+    }
+    PoseGaussian onRobot() const override {
+        return {};
+    }
 };
 
 }  // namespace slamot

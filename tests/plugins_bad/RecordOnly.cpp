@@ -25,5 +25,13 @@
 #define RECORD_NAME SLAMOT_TEXT(NAME)
 #endif
 
-extern "C" __attribute__((visibility("default"))) const slamot::PluginRecord slamot_plugin_record{
-    MAJOR, MINOR, MRPT, ALIGNMENT, ABI, RECORD_NAME, "slamot::" SLAMOT_TEXT(CLASS), "estimator", "Nothing behind it"};
+extern "C" __attribute__((visibility("default")))
+const slamot::PluginRecord slamot_plugin_record{MAJOR,
+                                                MINOR,
+                                                MRPT,
+                                                ALIGNMENT,
+                                                ABI,
+                                                RECORD_NAME,
+                                                "slamot::" SLAMOT_TEXT(CLASS),
+                                                "estimator",
+                                                "Nothing behind it"};

@@ -19,8 +19,8 @@ inline OdometryIncrement odometry(double t0, double t1, const Pose2& increment) 
 }
 
 /// A detection of `point` as seen without noise, with deviations 0.1 m and 0.02 rad.
-inline RangeBearingDetection seen(const Pose2& robot, const Vector2& point, ObjectKind kind, std::int64_t source,
-                                  const Pose2& sensor = {}, int sensor_index = 0) {
+inline RangeBearingDetection seen(const Pose2& robot, const Vector2& point, ObjectKind kind,
+                                  std::int64_t source, const Pose2& sensor = {}, int sensor_index = 0) {
     const Vector2 z = rangeBearing<double>(robot.vector(), point, sensor);
     RangeBearingDetection out;
     out.range = z.x();

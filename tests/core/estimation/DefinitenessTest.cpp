@@ -1,8 +1,8 @@
-#include "slamot/core/estimation/Definiteness.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "slamot/core/estimation/Definiteness.h"
 
 namespace slamot {
 namespace {
@@ -47,7 +47,8 @@ TEST(DefinitenessTest, TheLowerTriangleDecides) {
 }
 
 TEST(DefinitenessTest, WhatIsNotFiniteIsNot) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
         matrix(1, 1) = bad;
         EXPECT_FALSE(isPositiveSemidefinite(matrix, tolerance));

@@ -1,7 +1,6 @@
-#include "slamot/core/estimation/DenseAlgebra.h"
-
 #include <gtest/gtest.h>
 
+#include "slamot/core/estimation/DenseAlgebra.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
@@ -46,7 +45,9 @@ TEST(DenseAlgebraTest, WorksOnBlocksOfLargerStorage) {
     Eigen::MatrixXd A_storage = randomMatrix(random, 20, 20), W_storage = randomMatrix(random, 15, 9);
     const Eigen::MatrixXd A_before = A_storage, W_before = W_storage;
     downdateLower(A_storage.topLeftCorner(10, 10), W_storage.topLeftCorner(10, 4));
-    const Eigen::MatrixXd expected = A_before.topLeftCorner(10, 10) - W_before.topLeftCorner(10, 4) * W_before.topLeftCorner(10, 4).transpose();
+    const Eigen::MatrixXd expected =
+        A_before.topLeftCorner(10, 10) -
+        W_before.topLeftCorner(10, 4) * W_before.topLeftCorner(10, 4).transpose();
     EXPECT_TRUE(near(Eigen::MatrixXd(A_storage.topLeftCorner(10, 10).triangularView<Eigen::Lower>()),
                      Eigen::MatrixXd(expected.triangularView<Eigen::Lower>()), rounding));
     EXPECT_EQ(A_storage.bottomRows(10), A_before.bottomRows(10));

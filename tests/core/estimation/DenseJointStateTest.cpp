@@ -1,5 +1,3 @@
-#include "slamot/core/estimation/DenseJointState.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -8,6 +6,7 @@
 
 #include "FullMatrixState.h"
 #include "slamot/core/estimation/Definiteness.h"
+#include "slamot/core/estimation/DenseJointState.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
@@ -22,17 +21,21 @@ using test::randomVector;
 
 int sizeOf(BlockKind kind) {
     switch (kind) {
-        case BlockKind::robot: return 3;
-        case BlockKind::target: return 6;
-        case BlockKind::landmark: return 2;
-        case BlockKind::extra: return 1;
+        case BlockKind::robot:
+            return 3;
+        case BlockKind::target:
+            return 6;
+        case BlockKind::landmark:
+            return 2;
+        case BlockKind::extra:
+            return 1;
     }
     return 0;
 }
 
 /// The same random operations on an engine and on the reference.
 class Pair {
-   public:
+  public:
     explicit Pair(std::uint32_t index)
         : random_(11, RandomPurpose::test, 0, 0, index),
           robot_(randomVector(random_, 3)),
@@ -51,7 +54,8 @@ class Pair {
         const BlockId id = anyBlock();
         const int size = reference.blocks.at(id).size;
         const Eigen::VectorXd mean = randomVector(random_, size);
-        const Eigen::MatrixXd F = Eigen::MatrixXd::Identity(size, size) + 0.2 * randomMatrix(random_, size, size);
+        const Eigen::MatrixXd F =
+            Eigen::MatrixXd::Identity(size, size) + 0.2 * randomMatrix(random_, size, size);
         const Eigen::MatrixXd Q = randomCovariance(random_, size, 0.1);
         std::vector<Coupling> couplings;
         if (coupled)
@@ -86,7 +90,8 @@ class Pair {
 
     BlockId anyBlock() {
         auto block = reference.blocks.begin();
-        std::advance(block, static_cast<int>(random_.uniform(0, static_cast<double>(reference.blocks.size()))));
+        std::advance(block,
+                     static_cast<int>(random_.uniform(0, static_cast<double>(reference.blocks.size()))));
         return block->first;
     }
 
@@ -98,20 +103,22 @@ class Pair {
 
     /// Both do the same few products in another order; each operation adds some 1e-16, sequences have 60.
     testing::AssertionResult agree() const {
-        if (engine.dimension() != reference.x.size()) return testing::AssertionFailure() << "dimensions differ";
+        if (engine.dimension() != reference.x.size())
+            return testing::AssertionFailure() << "dimensions differ";
         Eigen::VectorXd x(engine.dimension());
-        for (const auto& [id, block] : reference.blocks) x.segment(reference.offset(id), block.size) = engine.mean(id);
+        for (const auto& [id, block] : reference.blocks)
+            x.segment(reference.offset(id), block.size) = engine.mean(id);
         if (auto same = near(x, reference.x, 1e-12); !same) return same << "\n(mean)";
         return near(engine.jointCovariance(allBlocks()), reference.P, 1e-12);
     }
 
     RandomStream random_;
 
-   private:
+  private:
     Vector3 robot_;
     Matrix3 covariance_;
 
-   public:
+  public:
     DenseJointState engine;
     FullMatrixState reference;
 };
@@ -141,8 +148,8 @@ TEST_P(DenseJointStateTest, RandomSequencesMatchFullMatrices) {
 
 TEST_P(DenseJointStateTest, CovarianceStaysSemidefiniteOverAThousandSteps) {
     Pair pair(100);
-    for (const BlockKind kind : {BlockKind::target, BlockKind::landmark, BlockKind::landmark, BlockKind::extra,
-                                 BlockKind::landmark, BlockKind::target})
+    for (const BlockKind kind : {BlockKind::target, BlockKind::landmark, BlockKind::landmark,
+                                 BlockKind::extra, BlockKind::landmark, BlockKind::target})
         pair.augment(kind);
     for (int step = 0; step < 1000; ++step) {
         pair.propagate(step % 3 == 0);
@@ -151,13 +158,16 @@ TEST_P(DenseJointStateTest, CovarianceStaysSemidefiniteOverAThousandSteps) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, DenseJointStateTest, testing::Values(Consistency::classic, Consistency::invariant),
-                         [](const auto& each) { return each.param == Consistency::classic ? "classic" : "invariant"; });
+INSTANTIATE_TEST_SUITE_P(Both, DenseJointStateTest,
+                         testing::Values(Consistency::classic, Consistency::invariant), [](const auto& each) {
+                             return each.param == Consistency::classic ? "classic" : "invariant";
+                         });
 
 /// Robot with a landmark, a target and an extra block in between.
 Pair smallPair() {
     Pair pair(50);
-    for (const BlockKind kind : {BlockKind::landmark, BlockKind::extra, BlockKind::target}) pair.augment(kind);
+    for (const BlockKind kind : {BlockKind::landmark, BlockKind::extra, BlockKind::target})
+        pair.augment(kind);
     return pair;
 }
 
@@ -184,8 +194,10 @@ TEST(DenseJointStateTest, ExtraBlocksDoNotTurnWithTheWorld) {
     m.R = Matrix2::Identity();
     classic.engine.update({m}, Consistency::classic);
     invariant.engine.update({m}, Consistency::invariant);
-    EXPECT_EQ(Eigen::MatrixXd(classic.engine.covariance(2, 2)), Eigen::MatrixXd(invariant.engine.covariance(2, 2)));
-    EXPECT_NE(Eigen::MatrixXd(classic.engine.covariance(1, 1)), Eigen::MatrixXd(invariant.engine.covariance(1, 1)));
+    EXPECT_EQ(Eigen::MatrixXd(classic.engine.covariance(2, 2)),
+              Eigen::MatrixXd(invariant.engine.covariance(2, 2)));
+    EXPECT_NE(Eigen::MatrixXd(classic.engine.covariance(1, 1)),
+              Eigen::MatrixXd(invariant.engine.covariance(1, 1)));
     EXPECT_EQ(Eigen::MatrixXd(classic.engine.mean(1)), Eigen::MatrixXd(invariant.engine.mean(1)));
 }
 
@@ -202,8 +214,12 @@ TEST(DenseJointStateTest, ClonesAreIndependent) {
     clone->remove(3);
     EXPECT_NO_THROW(pair.engine.mean(3));
     // Ids go on from the same number in both and stay apart.
-    EXPECT_EQ(clone->augment(BlockKind::landmark, Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()), 4);
-    EXPECT_EQ(pair.engine.augment(BlockKind::extra, Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Ones(1, 1)), 4);
+    EXPECT_EQ(
+        clone->augment(BlockKind::landmark, Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()),
+        4);
+    EXPECT_EQ(pair.engine.augment(BlockKind::extra, Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3),
+                                  Eigen::MatrixXd::Ones(1, 1)),
+              4);
     EXPECT_EQ(clone->mean(4).size(), 2);
     EXPECT_EQ(pair.engine.mean(4).size(), 1);
 }
@@ -217,7 +233,9 @@ TEST(DenseJointStateTest, RemovedBlocksAreGoneAndIdsNotReused) {
     EXPECT_THROW(pair.engine.mean(-1), std::out_of_range);
     EXPECT_THROW(pair.engine.mean(99), std::out_of_range);
     EXPECT_THROW(pair.engine.remove(robot_block), std::invalid_argument);
-    EXPECT_EQ(pair.engine.augment(BlockKind::landmark, Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()), 4);
+    EXPECT_EQ(pair.engine.augment(BlockKind::landmark, Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3),
+                                  Matrix2::Identity()),
+              4);
 }
 
 TEST(DenseJointStateTest, UpdateRefusesAnIndefiniteS) {

@@ -1,7 +1,7 @@
 #pragma once
-// The joint state as the textbook writes it: full matrices, nothing clever. What JointState engines are held to.
+// The joint state as the textbook writes it: full matrices, nothing clever. What JointState engines are held
+// to.
 #include <Eigen/Dense>
-
 #include <map>
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace slamot::test {
 
 class FullMatrixState {
-   public:
+  public:
     struct Block {
         BlockKind kind;
         int size;
@@ -29,8 +29,8 @@ class FullMatrixState {
         return -1;
     }
 
-    void propagate(BlockId id, const Eigen::VectorXd& mean, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Q,
-                   const std::vector<Coupling>& couplings) {
+    void propagate(BlockId id, const Eigen::VectorXd& mean, const Eigen::MatrixXd& F,
+                   const Eigen::MatrixXd& Q, const std::vector<Coupling>& couplings) {
         const int size = blocks.at(id).size, at = offset(id);
         Eigen::MatrixXd A = Eigen::MatrixXd::Identity(x.size(), x.size());
         A.block(at, at, size, size) = F;
@@ -85,9 +85,7 @@ class FullMatrixState {
 
         Eigen::MatrixXd D = Eigen::MatrixXd::Identity(n, n);
         for (const auto& [id, block] : blocks) {
-            const int vectors = block.kind == BlockKind::extra    ? 0
-                                : block.kind == BlockKind::target ? 3
-                                                                  : 1;
+            const int vectors = block.kind == BlockKind::extra ? 0 : block.kind == BlockKind::target ? 3 : 1;
             for (int k = 0; k < vectors; ++k) {
                 const int at = offset(id) + 2 * k;
                 D.block<2, 1>(at, 2) += quarterTurn() * dx.segment<2>(at);

@@ -1,11 +1,10 @@
-#include "slamot/core/estimation/JointFilter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "slamot/core/estimation/JointFilter.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 #include "support/Scenes.h"
@@ -66,7 +65,8 @@ TEST(JointFilterTest, ObjectsStartAtFirstSight) {
 TEST(JointFilterTest, UnknownDetectionsAreIgnored) {
     JointFilter filter = started();
     const auto report = filter.update(
-        detectionsAt(0, {seen({}, {5, 0}, landmark, -1), seen({}, {5, 0}, ObjectKind::unknown, 3), seen({}, {1, 1}, mover, -1)}));
+        detectionsAt(0, {seen({}, {5, 0}, landmark, -1), seen({}, {5, 0}, ObjectKind::unknown, 3),
+                         seen({}, {1, 1}, mover, -1)}));
     EXPECT_EQ(outcomes(report), std::vector<Outcome>(3, Outcome::ignored));
     EXPECT_TRUE(filter.landmarks().empty() && filter.tracks().empty());
     EXPECT_EQ(filter.state().dimension(), 3);
@@ -79,7 +79,8 @@ TEST(JointFilterTest, ANewObjectTwiceInABatchStartsOnce) {
     const auto once = seen({}, {5, 0}, landmark, 1);
     const auto report = filter.update(
         detectionsAt(0, {once, shifted(once, 0.2), seen({}, {0, 3}, mover, 1), seen({}, {0, 3}, mover, 1)}));
-    EXPECT_EQ(outcomes(report), (std::vector<Outcome>{Outcome::initiated, Outcome::ignored, Outcome::initiated, Outcome::ignored}));
+    EXPECT_EQ(outcomes(report), (std::vector<Outcome>{Outcome::initiated, Outcome::ignored,
+                                                      Outcome::initiated, Outcome::ignored}));
     EXPECT_EQ(filter.state().dimension(), 3 + 6 + 2);
     // Known by then, both of the next batch are used.
     const auto again = filter.update(detectionsAt(0, {once, once}));
@@ -126,8 +127,8 @@ TEST(JointFilterTest, OutliersAreRejectedInflatedOrAccepted) {
     EXPECT_EQ(inflated.after.seen, 3);
     EXPECT_EQ(inflated.after.last_seen, Stamp::fromSeconds(1));
 
-    // Along the line of sight everything is scalar (robot known): K = P / (P + R), R times (nis / gate)^2. The
-    // second-order terms are below 1e-5 here.
+    // Along the line of sight everything is scalar (robot known): K = P / (P + R), R times (nis / gate)^2.
+    // The second-order terms are below 1e-5 here.
     const double P = accepted.before.covariance(0, 0), nis = accepted.report.innovations[0].nis;
     const double gate = -2 * std::log(0.001), factor = std::pow(nis / gate, 2);
     const double moved = accepted.after.mean.x() - accepted.before.mean.x();
@@ -140,14 +141,16 @@ TEST(JointFilterTest, TheGateIsAProbability) {
     JointFilterParameters parameters;
     parameters.outliers = OutlierTreatment::reject;
     // NIS of about 66 has a tail of exp(-33) = 4.7e-15.
-    for (const auto& [probability, outcome] : {std::pair{0.999, Outcome::rejected}, {1 - 1e-14, Outcome::rejected},
+    for (const auto& [probability, outcome] : {std::pair{0.999, Outcome::rejected},
+                                               {1 - 1e-14, Outcome::rejected},
                                                {1 - 1e-15, Outcome::updated}}) {
         parameters.gate_probability = probability;
         JointFilter filter = started(parameters);
         const auto good = seen({}, {10, 0}, landmark, 1);
         filter.update(detectionsAt(0, {good}));
         filter.update(detectionsAt(0, {good}));
-        EXPECT_EQ(outcomes(filter.update(detectionsAt(0, {shifted(good, 1)}))), std::vector{outcome}) << probability;
+        EXPECT_EQ(outcomes(filter.update(detectionsAt(0, {shifted(good, 1)}))), std::vector{outcome})
+            << probability;
     }
 }
 
@@ -185,7 +188,8 @@ TEST(JointFilterTest, ARejectedDetectionDoesNotKeepATrackAlive) {
     JointFilter filter = started(parameters);
     filter.update(detectionsAt(0, {seen({}, {5, 0}, mover, 1)}));
     filter.predict(odometry(0, 0.9, {}));
-    EXPECT_EQ(outcomes(filter.update(detectionsAt(0.9, {seen({}, {50, 0}, mover, 1)}))), std::vector{Outcome::rejected});
+    EXPECT_EQ(outcomes(filter.update(detectionsAt(0.9, {seen({}, {50, 0}, mover, 1)}))),
+              std::vector{Outcome::rejected});
     filter.predict(odometry(0.9, 1.5, {}));
     EXPECT_TRUE(filter.tracks().empty());
 }
@@ -196,7 +200,8 @@ TEST(JointFilterTest, TheScheduleSwitchesAtTheTick) {
     change.after = 1.0;
     change.model.kind = TargetModelKind::ca;
     parameters.target_schedule = {change};
-    for (const auto& [begin, is_ca] : {std::pair{9'999'999L, false}, {10'000'000L, true}, {10'000'001L, true}}) {
+    for (const auto& [begin, is_ca] :
+         {std::pair{9'999'999L, false}, {10'000'000L, true}, {10'000'001L, true}}) {
         JointFilter filter(parameters, {});
         const Stamp start{17'000'000'000'000'000};
         filter.start(start, {});
@@ -224,7 +229,8 @@ LoopResult noisyLoop(Consistency consistency, double start_heading) {
     parameters.consistency = consistency;
     JointFilter filter(parameters, {});
     const Pose2 world{10, -20, start_heading};
-    const Matrix3 in_start = (Matrix3() << 0.02, 0.005, 0.001, 0.005, 0.01, 0.002, 0.001, 0.002, 0.003).finished();
+    const Matrix3 in_start =
+        (Matrix3() << 0.02, 0.005, 0.001, 0.005, 0.01, 0.002, 0.001, 0.002, 0.003).finished();
     Matrix3 turn = Matrix3::Identity();
     turn.topLeftCorner<2, 2>() = rotation(start_heading);
     filter.start({}, {world, turn * in_start * turn.transpose()});
@@ -233,8 +239,9 @@ LoopResult noisyLoop(Consistency consistency, double start_heading) {
     for (int k = 1; k <= 60; ++k) {
         const Pose2 step{0.3, 0, 0.11};
         truth = truth * step;
-        filter.predict(test::odometry(0.1 * (k - 1), 0.1 * k,
-                                      {step.x + 0.01 * random.normal(), 0.002 * random.normal(), step.theta + 0.01 * random.normal()}));
+        filter.predict(test::odometry(
+            0.1 * (k - 1), 0.1 * k,
+            {step.x + 0.01 * random.normal(), 0.002 * random.normal(), step.theta + 0.01 * random.normal()}));
         std::vector<RangeBearingDetection> detections;
         for (int i = 0; i < 8; ++i) {
             const Vector2 point = Vector2(0, 2.7) + 6.0 * Vector2(std::cos(0.8 * i), std::sin(0.8 * i));
@@ -253,8 +260,9 @@ LoopResult noisyLoop(Consistency consistency, double start_heading) {
 class JointFilterRotation : public testing::TestWithParam<Consistency> {};
 
 TEST_P(JointFilterRotation, TheWorldTurnsWithTheStart) {
-    // Bearings reach all around, so turning the start moves headings and lines of sight across +-pi; nothing but
-    // the frame may change. 60 steps of rounding at coordinates of about 20: 1e-9 is ample and still sees any error.
+    // Bearings reach all around, so turning the start moves headings and lines of sight across +-pi; nothing
+    // but the frame may change. 60 steps of rounding at coordinates of about 20: 1e-9 is ample and still sees
+    // any error.
     const LoopResult plain = noisyLoop(GetParam(), 0);
     const Vector2 origin(10, -20);
     for (int i = 1; i < 12; ++i) {
@@ -263,26 +271,32 @@ TEST_P(JointFilterRotation, TheWorldTurnsWithTheStart) {
         const Matrix2 Rot = rotation(angle);
         const auto moved = [&](const Vector2& p) { return Vector2(origin + Rot * (p - origin)); };
         EXPECT_TRUE(near(turned.robot.mean.position(), moved(plain.robot.mean.position()), 1e-9)) << angle;
-        EXPECT_NEAR(angleDifference(turned.robot.mean.theta, plain.robot.mean.theta + angle), 0, 1e-9) << angle;
+        EXPECT_NEAR(angleDifference(turned.robot.mean.theta, plain.robot.mean.theta + angle), 0, 1e-9)
+            << angle;
         Matrix3 turn = Matrix3::Identity();
         turn.topLeftCorner<2, 2>() = Rot;
         EXPECT_TRUE(near(turned.robot.covariance, turn * plain.robot.covariance * turn.transpose(), 1e-9));
         ASSERT_EQ(turned.landmarks.size(), 8u);
         for (int k = 0; k < 8; ++k) {
             EXPECT_TRUE(near(turned.landmarks[k].mean, moved(plain.landmarks[k].mean), 1e-9)) << angle;
-            EXPECT_TRUE(near(turned.landmarks[k].covariance, Rot * plain.landmarks[k].covariance * Rot.transpose(), 1e-9));
+            EXPECT_TRUE(near(turned.landmarks[k].covariance,
+                             Rot * plain.landmarks[k].covariance * Rot.transpose(), 1e-9));
         }
         ASSERT_EQ(turned.tracks.size(), 1u);
         Matrix6 Rot6 = Matrix6::Zero();
         for (int k = 0; k < 6; k += 2) Rot6.block<2, 2>(k, k) = Rot;
         EXPECT_TRUE(near(turned.tracks[0].mean.head<2>(), moved(plain.tracks[0].mean.head<2>()), 1e-9));
-        EXPECT_TRUE(near(turned.tracks[0].mean.tail<4>(), Rot6.topLeftCorner<4, 4>() * plain.tracks[0].mean.tail<4>(), 1e-9));
-        EXPECT_TRUE(near(turned.tracks[0].covariance, Rot6 * plain.tracks[0].covariance * Rot6.transpose(), 1e-9));
+        EXPECT_TRUE(near(turned.tracks[0].mean.tail<4>(),
+                         Rot6.topLeftCorner<4, 4>() * plain.tracks[0].mean.tail<4>(), 1e-9));
+        EXPECT_TRUE(
+            near(turned.tracks[0].covariance, Rot6 * plain.tracks[0].covariance * Rot6.transpose(), 1e-9));
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, JointFilterRotation, testing::Values(Consistency::classic, Consistency::invariant),
-                         [](const auto& each) { return each.param == Consistency::classic ? "classic" : "invariant"; });
+INSTANTIATE_TEST_SUITE_P(Both, JointFilterRotation,
+                         testing::Values(Consistency::classic, Consistency::invariant), [](const auto& each) {
+                             return each.param == Consistency::classic ? "classic" : "invariant";
+                         });
 
 TEST(JointFilterTest, TwoSensorsWithDifferentOffsetsInOneSet) {
     // One looks ahead from the front, one back from the rear; both see the same landmark where it is.
@@ -291,10 +305,13 @@ TEST(JointFilterTest, TwoSensorsWithDifferentOffsetsInOneSet) {
     const Pose2 robot{2, 1, 0.7};
     const Vector2 point(6, -3);
     JointFilterParameters parameters;
-    parameters.consistency = Consistency::classic;  // no second-order shift: noise-free detections fit exactly
+    parameters.consistency =
+        Consistency::classic;  // no second-order shift: noise-free detections fit exactly
     JointFilter filter(parameters, {});
     filter.start({}, {robot, Matrix3::Zero()});
-    filter.update(detectionsAt(0, {seen(robot, point, landmark, 1, front, 0), seen(robot, Vector2(0, 9), landmark, 2, rear, 1)}, sensors));
+    filter.update(detectionsAt(
+        0, {seen(robot, point, landmark, 1, front, 0), seen(robot, Vector2(0, 9), landmark, 2, rear, 1)},
+        sensors));
     EXPECT_TRUE(near(filter.landmarks().at(0).mean, point, 1e-14));
     EXPECT_TRUE(near(filter.landmarks().at(1).mean, Vector2(0, 9), 1e-14));
     const auto report = filter.update(detectionsAt(
@@ -309,7 +326,8 @@ TEST(JointFilterTest, TwoSensorsWithDifferentOffsetsInOneSet) {
 TEST(JointFilterTest, JointCovarianceListsRobotTracksLandmarks) {
     JointFilter filter = started();
     filter.predict(odometry(0, 1, {1, 0, 0.1}));
-    filter.update(detectionsAt(1, {seen({}, {5, 0}, landmark, 4), seen({}, {0, 3}, mover, 5), seen({}, {-5, 1}, landmark, 6)}));
+    filter.update(detectionsAt(
+        1, {seen({}, {5, 0}, landmark, 4), seen({}, {0, 3}, mover, 5), seen({}, {-5, 1}, landmark, 6)}));
     const JointCovariance joint = filter.jointCovariance();
     ASSERT_EQ(joint.matrix.rows(), 3 + 6 + 4);
     EXPECT_TRUE(near(joint.matrix.topLeftCorner<3, 3>(), filter.robot().covariance, 0));
@@ -350,7 +368,8 @@ TEST(JointFilterParametersTest, ScheduleIsReadAndWritten) {
     EXPECT_EQ(parameters.target_schedule[0].model.noise_std, 1.8);
     EXPECT_EQ(parameters.target_schedule[1].after, 20.5);
     EXPECT_EQ(schedule->print(), "15:ca:1.8, 20.5:cv:0.5");
-    for (const char* bad : {"15", "15:xx", "x:ca", "-1:ca", "15:ca:-1", "15:ca:1:2", "15:ca, 15:cv", "15:ca,, 16:cv", "15:ca,", "nan:ca", "inf:ca"})
+    for (const char* bad : {"15", "15:xx", "x:ca", "-1:ca", "15:ca:-1", "15:ca:1:2", "15:ca, 15:cv",
+                            "15:ca,, 16:cv", "15:ca,", "nan:ca", "inf:ca"})
         EXPECT_TRUE(schedule->parse(bad)) << bad;
     EXPECT_EQ(parameters.target_schedule.size(), 2u);
     EXPECT_FALSE(schedule->parse("none"));

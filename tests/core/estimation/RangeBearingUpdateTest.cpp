@@ -1,13 +1,11 @@
-#include "slamot/core/estimation/RangeBearingUpdate.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/RangeBearingUpdate.h"
 #include "slamot/core/models/RangeBearing.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
@@ -40,7 +38,8 @@ TEST(RangeBearingUpdateTest, ClassicIsTheModelsLinearisation) {
     const DenseJointState state = correlatedState();
     const Pose2 sensor{0.5, -0.2, 0.3};
     const auto h = predictRangeBearing({1, 2, 0.5}, {7, 10}, sensor);
-    const auto out = linearise(state, 1, detectionOf(h.z.x() + 0.3, h.z.y() - 0.1), sensor, Consistency::classic);
+    const auto out =
+        linearise(state, 1, detectionOf(h.z.x() + 0.3, h.z.y() - 0.1), sensor, Consistency::classic);
     EXPECT_TRUE(near(out.measurement.residual, Vector2(0.3, -0.1), 1e-14));
     EXPECT_EQ(out.measurement.R, R);
     ASSERT_EQ(out.measurement.term_count, 2);
@@ -56,8 +55,8 @@ TEST(RangeBearingUpdateTest, ClassicIsTheModelsLinearisation) {
 }
 
 TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
-    // Innovation of range -= P_lat/(2d), its variance += (P_lat/d)^2/2, P_lat the variance across the line of sight
-    // of landmark minus sensor; the lever arm turns with the heading.
+    // Innovation of range -= P_lat/(2d), its variance += (P_lat/d)^2/2, P_lat the variance across the line of
+    // sight of landmark minus sensor; the lever arm turns with the heading.
     const DenseJointState state = correlatedState();
     const Pose2 sensor{0.5, -0.2, 0.3};
     const auto classic = linearise(state, 1, detectionOf(9, 0.3), sensor, Consistency::classic);
@@ -71,7 +70,8 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
     const double P_lat = t.dot(D * state.jointCovariance({0, 1}) * D.transpose() * t);
     EXPECT_GT(P_lat, 0.1);  // or there would be nothing to see
 
-    EXPECT_NEAR(invariant.measurement.residual.x(), classic.measurement.residual.x() - P_lat / (2 * d), 1e-13);
+    EXPECT_NEAR(invariant.measurement.residual.x(), classic.measurement.residual.x() - P_lat / (2 * d),
+                1e-13);
     EXPECT_EQ(invariant.measurement.residual.y(), classic.measurement.residual.y());
     Matrix2 extra = Matrix2::Zero();
     extra(0, 0) = P_lat * P_lat / (2 * d * d);
@@ -82,7 +82,8 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
 TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
     // Sensor at the robot, 2 m away, 0.2 m of uncertainty: mean and variance of the true range by sampling.
     DenseJointState state({0, 0, 0}, Vector3(0.02, 0.02, 0).asDiagonal());
-    state.augment(BlockKind::landmark, Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3), 0.02 * Matrix2::Identity());
+    state.augment(BlockKind::landmark, Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3),
+                  0.02 * Matrix2::Identity());
     const auto out = linearise(state, 1, detectionOf(2, 0), {}, Consistency::invariant);
 
     RandomStream random(9, RandomPurpose::test);
@@ -99,8 +100,9 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
     // 3 P_lat^2 / (8 d^3) = 8e-5, is below that. P_lat / 2d = 0.01.
     EXPECT_NEAR(-out.measurement.residual.x(), mean, 5 * 2e-4);
     EXPECT_NEAR(-out.measurement.residual.x(), 0.01, 1e-15);
-    // H P H^t = 0.04, + (0.04/2)^2/2 = 2e-4. Its own deviation 0.04 sqrt(2)/1000 = 5.7e-5, 5 of them plus what the
-    // coupling of along and across adds in the same order (P_lat P_along / d^2 = 4e-4, left to H by design).
+    // H P H^t = 0.04, + (0.04/2)^2/2 = 2e-4. Its own deviation 0.04 sqrt(2)/1000 = 5.7e-5, 5 of them plus
+    // what the coupling of along and across adds in the same order (P_lat P_along / d^2 = 4e-4, left to H by
+    // design).
     EXPECT_NEAR(out.S(0, 0) - R(0, 0), 0.0402, 1e-15);
     EXPECT_NEAR(out.S(0, 0) - R(0, 0), variance, 5 * 5.7e-5 + 4.1e-4);
 }
@@ -108,7 +110,8 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
 TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
     // The landmark lies straight behind, at +pi; seen at -pi + 0.1 the innovation is 0.1 and not 0.1 - 2 pi.
     DenseJointState state({0, 0, 0}, 0.01 * Matrix3::Identity());
-    state.augment(BlockKind::landmark, Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3), 0.01 * Matrix2::Identity());
+    state.augment(BlockKind::landmark, Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3),
+                  0.01 * Matrix2::Identity());
     for (const double offset : {0.1, -0.1}) {
         const double bearing = wrapAngle(pi + offset);
         const auto out = linearise(state, 1, detectionOf(5, bearing), {}, Consistency::classic);
@@ -134,11 +137,12 @@ TEST(RangeBearingUpdateTest, FirstSightOfTheClassicFilterIsTheInverseModel) {
 }
 
 TEST(RangeBearingUpdateTest, FirstSightOfTheInvariantFilterHasTheMomentsOfTheBanana) {
-    // Point at range r = 10 + noise 0.1, bearing b = noise s: moments of (r cos b, r sin b) with b Gaussian are
-    // E cos b = exp(-s^2/2), E cos^2 b = (1 + exp(-2 s^2))/2, so that, with E r^2 = 100.01,
+    // Point at range r = 10 + noise 0.1, bearing b = noise s: moments of (r cos b, r sin b) with b Gaussian
+    // are E cos b = exp(-s^2/2), E cos^2 b = (1 + exp(-2 s^2))/2, so that, with E r^2 = 100.01,
     const double s = 0.1, s2 = s * s, r2 = 100.01;
     const double mean = 10 * std::exp(-s2 / 2);
-    const double along = r2 * (1 + std::exp(-2 * s2)) / 2 - mean * mean, across = r2 * (1 - std::exp(-2 * s2)) / 2;
+    const double along = r2 * (1 + std::exp(-2 * s2)) / 2 - mean * mean,
+                 across = r2 * (1 - std::exp(-2 * s2)) / 2;
     RangeBearingDetection detection = detectionOf(10, 0);
     detection.covariance = Vector2(0.01, s2).asDiagonal();
     const DenseJointState state({0, 0, 0}, Matrix3::Zero());

@@ -1,5 +1,3 @@
-#include "slamot/core/plugin/Estimator.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "slamot/core/plugin/Estimator.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
@@ -16,7 +15,7 @@ namespace slamot {
 class FrontTestEstimator : public Estimator {
     DEFINE_MRPT_OBJECT(FrontTestEstimator, slamot)
 
-   public:
+  public:
     std::string name() const override { return "front_test"; }
 
     double gain = 1;
@@ -25,7 +24,7 @@ class FrontTestEstimator : public Estimator {
     std::vector<TrackEstimate> track_list;
     bool update_fails = false;
 
-   protected:
+  protected:
     std::vector<ParameterTable> onParameters() override {
         ParameterTable table("front_test", "For the tests of Estimator.");
         table.real("gain", gain, "-", Interval::positive(), "A parameter.");
@@ -46,7 +45,8 @@ class FrontTestEstimator : public Estimator {
     UpdateReport onUpdate(const DetectionSet& set) override {
         ++updates;
         if (update_fails) throw std::domain_error("innovation covariance S is not positive definite");
-        constexpr Outcome all[] = {Outcome::updated, Outcome::inflated, Outcome::rejected, Outcome::initiated, Outcome::ignored};
+        constexpr Outcome all[] = {Outcome::updated, Outcome::inflated, Outcome::rejected, Outcome::initiated,
+                                   Outcome::ignored};
         UpdateReport report;
         for (std::size_t i = 0; i < set.rangeBearing().detections.size(); ++i) {
             Innovation innovation;
@@ -81,7 +81,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 class EstimatorTest : public testing::Test {
-   protected:
+  protected:
     EstimatorTest() {
         estimator_.initialize({});
         Start start;
@@ -96,8 +96,9 @@ class EstimatorTest : public testing::Test {
     }
     std::string refusedUpdate(const RangeBearingDetection& detection) {
         const int before = estimator_.updates;
-        const std::string message =
-            messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {good(), detection})); });
+        const std::string message = messageOf<EstimatorError>([&] {
+            estimator_.update(detectionsAt(10, {good(), detection}));
+        });
         EXPECT_EQ(estimator_.updates, before) << "the plugin must not see it";
         EXPECT_THAT(message, StartsWith("front_test: detection 1 at 10.0000000 "));
         return message;
@@ -109,7 +110,8 @@ class EstimatorTest : public testing::Test {
 
 TEST(EstimatorLifeTest, MustBeInitializedThenStarted) {
     FrontTestEstimator estimator;
-    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator.start({}); }), HasSubstr("front_test: start before initialize"));
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator.start({}); }),
+                HasSubstr("front_test: start before initialize"));
     estimator.initialize({});
     EXPECT_THAT(messageOf<EstimatorError>([&] { estimator.predict({}); }), HasSubstr("predict before start"));
     EXPECT_THAT(messageOf<EstimatorError>([&] { estimator.update({}); }), HasSubstr("update before start"));
@@ -158,18 +160,23 @@ TEST_F(EstimatorTest, RefusesTimeGoingBackAndGaps) {
     EXPECT_THROW(estimator_.predict(odometry(10.1, 10.2, {})), TimeOrderError);
     EXPECT_THROW(estimator_.update(detectionsAt(10.0000001, {})), TimeOrderError);
     EXPECT_THROW(estimator_.update(detectionsAt(9.9999999, {})), TimeOrderError);
-    EXPECT_THAT(refusedPrediction(odometry(9, 11, {})), HasSubstr("odometry over (9.0000000, 11.0000000] cannot follow time 10.0000000"));
-    EXPECT_THAT(refusedPrediction(odometry(11, 12, {})), HasSubstr("odometry starts at 11.0000000, after the present time 10.0000000: a gap"));
+    EXPECT_THAT(refusedPrediction(odometry(9, 11, {})),
+                HasSubstr("odometry over (9.0000000, 11.0000000] cannot follow time 10.0000000"));
+    EXPECT_THAT(refusedPrediction(odometry(11, 12, {})),
+                HasSubstr("odometry starts at 11.0000000, after the present time 10.0000000: a gap"));
     EXPECT_EQ(estimator_.predictions, 0);
     EXPECT_EQ(estimator_.updates, 0);
     EXPECT_EQ(estimator_.time(), Stamp::fromSeconds(10));
 }
 
 TEST_F(EstimatorTest, RefusesOdometryThatIsNotFinite) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         for (const Pose2& increment : {Pose2{bad, 0, 0}, Pose2{0, bad, 0}, Pose2{0, 0, bad}})
-            EXPECT_THAT(refusedPrediction(odometry(10, 11, increment)), HasSubstr("odometry at 11.0000000 is not finite"));
-        for (const BodyVelocity& velocity : {BodyVelocity{bad, 0, 0}, BodyVelocity{0, bad, 0}, BodyVelocity{0, 0, bad}}) {
+            EXPECT_THAT(refusedPrediction(odometry(10, 11, increment)),
+                        HasSubstr("odometry at 11.0000000 is not finite"));
+        for (const BodyVelocity& velocity :
+             {BodyVelocity{bad, 0, 0}, BodyVelocity{0, bad, 0}, BodyVelocity{0, 0, bad}}) {
             OdometryIncrement entry = odometry(10, 11, {});
             entry.velocity = velocity;
             EXPECT_THAT(refusedPrediction(entry), HasSubstr("not finite"));
@@ -192,13 +199,20 @@ TEST_F(EstimatorTest, RefusesBadDetectionsBeforeThePluginSeesThem) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THAT(refusedUpdate(changed([&](auto& d) { d.range = nan; })), HasSubstr("is not finite"));
     EXPECT_THAT(refusedUpdate(changed([&](auto& d) { d.bearing = 1 / 0.0; })), HasSubstr("is not finite"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.range = 0; })), HasSubstr("range that is not positive"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.range = -1; })), HasSubstr("range that is not positive"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.covariance(1, 1) = 0; })), HasSubstr("not positive definite"));
-    EXPECT_THAT(refusedUpdate(changed([&](auto& d) { d.covariance(0, 0) = nan; })), HasSubstr("not positive definite"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.covariance << 1, 2, 2, 1; })), HasSubstr("not positive definite"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.sensor = 1; })), HasSubstr("names no sensor of its set"));
-    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.sensor = -1; })), HasSubstr("names no sensor of its set"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.range = 0; })),
+                HasSubstr("range that is not positive"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.range = -1; })),
+                HasSubstr("range that is not positive"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.covariance(1, 1) = 0; })),
+                HasSubstr("not positive definite"));
+    EXPECT_THAT(refusedUpdate(changed([&](auto& d) { d.covariance(0, 0) = nan; })),
+                HasSubstr("not positive definite"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.covariance << 1, 2, 2, 1; })),
+                HasSubstr("not positive definite"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.sensor = 1; })),
+                HasSubstr("names no sensor of its set"));
+    EXPECT_THAT(refusedUpdate(changed([](auto& d) { d.sensor = -1; })),
+                HasSubstr("names no sensor of its set"));
     EXPECT_EQ(estimator_.estimate().health.updates, 0);
 }
 
@@ -216,9 +230,11 @@ TEST_F(EstimatorTest, CountsWhatBecameOfDetections) {
 
 TEST_F(EstimatorTest, NoticesAStateThatWentBad) {
     estimator_.pose.covariance = Vector3(1, 1, -1e-8).asDiagonal();
-    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {})); }),
-                HasSubstr("front_test: after update at 10.0000000 the robot's pose is not finite or its covariance [x y "
-                          "theta] not positive semi-definite"));
+    EXPECT_THAT(
+        messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {})); }),
+        HasSubstr(
+            "front_test: after update at 10.0000000 the robot's pose is not finite or its covariance [x y "
+            "theta] not positive semi-definite"));
     estimator_.pose.covariance = Vector3(1, 1, -1e-10).asDiagonal();  // rounding
     EXPECT_NO_THROW(estimator_.update(detectionsAt(10, {})));
     estimator_.pose.mean.y = std::numeric_limits<double>::quiet_NaN();
@@ -227,7 +243,8 @@ TEST_F(EstimatorTest, NoticesAStateThatWentBad) {
     estimator_.track_list.resize(2);
     estimator_.track_list[1].id = {42};
     estimator_.track_list[1].covariance(5, 5) = -1;
-    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {})); }), HasSubstr("track 42"));
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {})); }),
+                HasSubstr("track 42"));
 }
 
 TEST_F(EstimatorTest, NumericalFailuresNameEstimatorAndTime) {

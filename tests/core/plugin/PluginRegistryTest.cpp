@@ -1,5 +1,3 @@
-#include "slamot/core/plugin/PluginRegistry.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slamot/core/plugin/PluginRegistry.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -65,15 +64,20 @@ TEST(PluginRegistryTest, RefusesWhatIsNoModule) {
     EXPECT_THAT(refusal("/nowhere/libslamot_x.so"), HasSubstr("no such plugin file"));
     EXPECT_THAT(refusal(badFolder("text")), HasSubstr("no such plugin file"));  // a folder
     EXPECT_THAT(refusal(badFile("text")), HasSubstr("cannot be loaded"));
-    EXPECT_THAT(refusal(badFile("no_record")), HasSubstr("is no slamot plugin: symbol 'slamot_plugin_record' is missing"));
-    EXPECT_THAT(refusal(badFile("undefined")), AllOf(HasSubstr("cannot be loaded"), HasSubstr("defined_nowhere")));
+    EXPECT_THAT(refusal(badFile("no_record")),
+                HasSubstr("is no slamot plugin: symbol 'slamot_plugin_record' is missing"));
+    EXPECT_THAT(refusal(badFile("undefined")),
+                AllOf(HasSubstr("cannot be loaded"), HasSubstr("defined_nowhere")));
 }
 
 TEST(PluginRegistryTest, RefusesModulesOfAnotherBuild) {
-    EXPECT_THAT(refusal(badFile("other_major")), HasSubstr("was built for plugin interface 1.1, this program has 0.1"));
-    EXPECT_THAT(refusal(badFile("higher_minor")), HasSubstr("was built for plugin interface 0.2, this program has 0.1"));
+    EXPECT_THAT(refusal(badFile("other_major")),
+                HasSubstr("was built for plugin interface 1.1, this program has 0.1"));
+    EXPECT_THAT(refusal(badFile("higher_minor")),
+                HasSubstr("was built for plugin interface 0.2, this program has 0.1"));
     EXPECT_EQ(probePlugin(badFile("lower_minor")).name, "lower_minor");  // what it needs is still there
-    EXPECT_THAT(refusal(badFile("other_mrpt")), HasSubstr("was built with MRPT 0x10203, this program with 0x"));
+    EXPECT_THAT(refusal(badFile("other_mrpt")),
+                HasSubstr("was built with MRPT 0x10203, this program with 0x"));
     EXPECT_THAT(refusal(badFile("other_alignment")), HasSubstr("was built with Eigen alignment 0x40"));
     EXPECT_THAT(refusal(badFile("other_abi")), HasSubstr("was built with compiler ABI 0x7"));
 }
@@ -101,11 +105,13 @@ TEST(PluginRegistryTest, FailuresAtCreationNameTheFile) {
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         return message;
     };
-    EXPECT_THAT(creating("throwing_constructor"),
-                HasSubstr("the constructor of slamot::ThrowingConstructor failed: no licence for this planet"));
+    EXPECT_THAT(
+        creating("throwing_constructor"),
+        HasSubstr("the constructor of slamot::ThrowingConstructor failed: no licence for this planet"));
     EXPECT_THAT(creating("throwing_number"), HasSubstr("the constructor of slamot::ThrowingNumber failed"));
     EXPECT_THAT(creating("wrong_base"), HasSubstr("slamot::WrongBase is no estimator, as its record says"));
-    EXPECT_THAT(creating("unregistered"), HasSubstr("says it has class slamot::unregistered, which it does not register"));
+    EXPECT_THAT(creating("unregistered"),
+                HasSubstr("says it has class slamot::unregistered, which it does not register"));
 }
 
 TEST(PluginRegistryTest, RefusesBothOfADouble) {
@@ -129,7 +135,8 @@ TEST(PluginRegistryTest, ARefusedModuleDoesNotKeepOthersAway) {
     EXPECT_EQ(registry.refused().size(), 2u);
     EXPECT_NO_THROW(registry.find("ekf_slamot", "estimator"));
     const std::string message = messageOf<PluginError>([&] { registry.find("aborts", "estimator"); });
-    EXPECT_EQ(message, "estimator 'aborts' was refused: " + badFile("aborts") + ": crashed while being loaded");
+    EXPECT_EQ(message,
+              "estimator 'aborts' was refused: " + badFile("aborts") + ": crashed while being loaded");
 }
 
 TEST(PluginRegistryTest, EarlierFoldersHideNames) {

@@ -70,7 +70,8 @@ Places scan(const std::string& text, const std::string& name) {
                 fmt::format("{}:{}: '{}' stands before any section, expected [name] first", name, number, line));
         const std::string key = trimmed(line.substr(0, equals));
         places.keys[section][key] = number;
-        if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number); !is_new)
+        if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number);
+            !is_new)
             throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name, number,
                                           key, section, at->second));
     }

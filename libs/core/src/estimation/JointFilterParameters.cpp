@@ -42,7 +42,9 @@ std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text
         ParameterTable model("schedule", "");
         describe(change.model, model);
         const auto after = numberFromText(parts[0]);
-        if (!after || !std::isfinite(*after) || *after < 0 || (!schedule.empty() && *after <= schedule.back().after)) return std::nullopt;
+        if (!after || !std::isfinite(*after) || *after < 0 ||
+            (!schedule.empty() && *after <= schedule.back().after))
+            return std::nullopt;
         change.after = *after;
         if (model.find("model")->parse(parts[1])) return std::nullopt;
         if (parts.size() == 3 && model.find("noise_std")->parse(parts[2])) return std::nullopt;

@@ -49,7 +49,8 @@ void refuseDoubles(std::vector<PluginInfo>& found, std::vector<RefusedPlugin>& r
         for (const std::string& what : {"class " + plugin.class_name, "name '" + plugin.name + "'"})
             for (const std::string& other : owners[what])
                 if (other != plugin.file) {
-                    refused.push_back({plugin.file, fmt::format("{}: {} is also that of {}", plugin.file, what, other)});
+                    refused.push_back(
+                        {plugin.file, fmt::format("{}: {} is also that of {}", plugin.file, what, other)});
                     return true;
                 }
         return false;
