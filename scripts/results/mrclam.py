@@ -18,7 +18,7 @@ CASES = {
 def row(name, robot, m):
     """One run's figures; None where there is nothing to measure."""
     landmarks, targets = m.get("landmarks"), m.get("targets") or {}
-    seen, every = targets.get("while_seen"), targets.get("all")
+    seen, every = targets.get("seen"), targets.get("all")
     return {
         "case": name,
         "robot": robot,
@@ -46,7 +46,7 @@ def main():
             own = []
             for robot in range(1, 6):
                 slamot("run", ROOT / "config/runs/mrclam_ekf.ini", f"{folder}/logs/robot_{robot}.rawlog", "-o",
-                       f"{folder}/out", "--set", "output.figure=false", *overrides)
+                       f"{folder}/out", "--set", "output.figure=false", "--set", "output.interval=0", *overrides)
                 result = summary(f"{folder}/out")
                 figures = row(case, robot, result["metrics"])
                 figures["down-weighted"] = result["counts"]["detections_inflated"]
