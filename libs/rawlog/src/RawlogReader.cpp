@@ -129,7 +129,7 @@ struct RawlogReader::Impl {
     void unpack(const ActionFrame& frame) {
         const Stamp stamp = timeOf(frame);
         if (frame.action) {
-            if (const auto movement = frame.action->getBestMovementEstimation()) {
+            if (const auto movement = movementOf(*frame.action)) {
                 OdometryIncrement increment = incrementOf(*movement, frame.position);
                 increment.t0 = previous.value_or(later(stamp, -parameters.step));
                 increment.t1 = stamp;
@@ -141,6 +141,12 @@ struct RawlogReader::Impl {
         }
         if (frame.observations) unpackObservations(*frame.observations, stamp, frame.position);
         previous = stamp;
+    }
+
+    static mrpt::obs::CActionRobotMovement2D::Ptr movementOf(const mrpt::obs::CActionCollection& action) {
+        if (const auto best = action.getBestMovementEstimation()) return best;
+        // MRPT passes over a movement whose uncertainty is no number.
+        return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
     }
 
     OdometryIncrement incrementOf(const mrpt::obs::CActionRobotMovement2D& movement,
