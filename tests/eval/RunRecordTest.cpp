@@ -110,6 +110,14 @@ TEST(ReadTum, ReadsYawAndExactStamps) {
     EXPECT_TRUE(run.trajectory[0].robot.covariance.isZero());
 }
 
+TEST(ReadTum, ProjectsATiltedFrameToThePlane) {
+    // A half turn about (0.6, 0.8, 0) takes the x axis to 2 (0.6) (0.6, 0.8, 0) - (1, 0, 0) = (-0.28, 0.96,
+    // 0).
+    const TemporaryFolder folder("tum_tilted");
+    const RunRecord run = readTum(folder.write("c.tum", "1 0 0 0 0.6 0.8 0 0\n"));
+    EXPECT_NEAR(run.trajectory.at(0).robot.mean.theta, std::atan2(0.96, -0.28), 1e-14);
+}
+
 TEST(ReadTum, RefusesWithASentence) {
     const TemporaryFolder folder("tum_bad");
     const auto refuse = [&](const std::string& text) {

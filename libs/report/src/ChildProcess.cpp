@@ -22,10 +22,11 @@ namespace {
 /// A file descriptor that closes itself, here and in the child (which gets a copy as 0, 1 or 2).
 class Descriptor {
   public:
-    Descriptor(const std::filesystem::path& file, int flags) : fd_(open(file.c_str(), flags | O_CLOEXEC, 0666)) {
+    Descriptor(const std::filesystem::path& file, int flags)
+        : fd_(open(file.c_str(), flags | O_CLOEXEC, 0666)) {
         if (fd_ < 0) {
-            throw ReportError(fmt::format("cannot {} '{}': {}", flags & O_CREAT ? "write" : "read", file.string(),
-                                          std::strerror(errno)));
+            throw ReportError(fmt::format("cannot {} '{}': {}", flags & O_CREAT ? "write" : "read",
+                                          file.string(), std::strerror(errno)));
         }
     }
     ~Descriptor() { close(fd_); }
@@ -92,8 +93,8 @@ ChildResult runChild(const std::vector<std::string>& command, const std::filesys
     posix_spawn_file_actions_adddup2(&actions, out.get(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
     pid_t pid = 0;
-    const int failure = posix_spawnp(&pid, command.front().c_str(), &actions, nullptr, pointersTo(command).data(),
-                                     pointersTo(environment).data());
+    const int failure = posix_spawnp(&pid, command.front().c_str(), &actions, nullptr,
+                                     pointersTo(command).data(), pointersTo(environment).data());
     posix_spawn_file_actions_destroy(&actions);
     if (failure != 0) {
         return {};

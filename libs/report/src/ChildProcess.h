@@ -12,9 +12,9 @@ struct ChildResult {
     std::string errors;    ///< what it said on standard error
 };
 
-/// Runs a program found on PATH, without a shell, reading `input` and writing `output`, and waits for its end. It
-/// gets this process' environment with `extra_paths` appended to the variables of those names, after a colon.
-/// Throws ReportError if a file cannot be opened.
+/// Runs a program found on PATH, without a shell, reading `input` and writing `output`, and waits for its
+/// end. It gets this process' environment with `extra_paths` appended to the variables of those names, after
+/// a colon. Throws ReportError if a file cannot be opened.
 ChildResult runChild(const std::vector<std::string>& command, const std::filesystem::path& input,
                      const std::filesystem::path& output,
                      const std::map<std::string, std::string>& extra_paths = {});

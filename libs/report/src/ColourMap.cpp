@@ -15,15 +15,16 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-/// Evenly spaced support colours. Viridis: S. van der Walt, N. Smith, matplotlib; diverging: C. Brewer's RdBu,
-/// reversed, both readable with the common forms of colour blindness.
+/// Evenly spaced support colours. Viridis: S. van der Walt, N. Smith, matplotlib; diverging: C. Brewer's
+/// RdBu, reversed, both readable with the common forms of colour blindness.
 const std::vector<Rgb>& anchors(ColourMap colours) {
     static const std::vector<Rgb> viridis = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
                                              {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
                                              {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
     static const std::vector<Rgb> grey = {{255, 255, 255}, {0, 0, 0}};
-    static const std::vector<Rgb> diverging = {{5, 48, 97},     {67, 147, 195}, {209, 229, 240}, {247, 247, 247},
-                                               {253, 219, 199}, {214, 96, 77},  {103, 0, 31}};
+    static const std::vector<Rgb> diverging = {{5, 48, 97},     {67, 147, 195},  {209, 229, 240},
+                                               {247, 247, 247}, {253, 219, 199}, {214, 96, 77},
+                                               {103, 0, 31}};
     switch (colours) {
         case ColourMap::grey:
             return grey;
@@ -54,7 +55,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
     return text;
 }
 
-std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgba, std::size_t width, std::size_t height) {
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgba, std::size_t width,
+                                    std::size_t height) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.format = PNG_FORMAT_RGBA;
@@ -63,7 +65,8 @@ std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgba, std::
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::uint8_t> bytes(size);
     if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, rgba.data(), 0, nullptr)) {
-        throw std::runtime_error(fmt::format("a heat map of {} x {} cells: {}", width, height, image.message));
+        throw std::runtime_error(
+            fmt::format("a heat map of {} x {} cells: {}", width, height, image.message));
     }
     bytes.resize(size);
     return bytes;
@@ -76,11 +79,14 @@ std::string heatMapImage(const HeatMap& map) {
     if (rows == 0 || columns == 0) {
         throw std::invalid_argument("a heat map has no cells; expected at least one");
     }
+    // Viewers blur an image when they enlarge it, so the cells are enlarged here.
+    constexpr Eigen::Index enough = 1200;  // pixels
+    const Eigen::Index zoom = std::max<Eigen::Index>(1, enough / std::max(rows, columns));
     std::vector<std::uint8_t> rgba;
-    rgba.reserve(static_cast<std::size_t>(4 * rows * columns));
-    for (Eigen::Index r = rows - 1; r >= 0; --r) {
-        for (Eigen::Index c = 0; c < columns; ++c) {
-            const double value = map.values(r, c);
+    rgba.reserve(static_cast<std::size_t>(4 * rows * columns * zoom * zoom));
+    for (Eigen::Index r = rows * zoom - 1; r >= 0; --r) {
+        for (Eigen::Index c = 0; c < columns * zoom; ++c) {
+            const double value = map.values(r / zoom, c / zoom);
             const bool known = std::isfinite(value);
             const double fraction = known ? (value - map.low) / (map.high - map.low) : 0;
             for (const double channel : colourAt(anchors(map.colours), fraction)) {
@@ -89,8 +95,8 @@ std::string heatMapImage(const HeatMap& map) {
             rgba.push_back(known ? 255 : 0);
         }
     }
-    return "data:image/png;base64," +
-           base64(encodePng(rgba, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows)));
+    return "data:image/png;base64," + base64(encodePng(rgba, static_cast<std::size_t>(columns * zoom),
+                                                       static_cast<std::size_t>(rows * zoom)));
 }
 
 nlohmann::json colourGradient(ColourMap colours) {

@@ -1,8 +1,11 @@
 #include "Domain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace slamot::report {
 namespace {
@@ -78,30 +81,36 @@ AxisView axisView(const Axis& axis, Extent extent, double pixels, std::optional<
     if (!axis.categories.empty()) {
         return {-0.5, static_cast<double>(axis.categories.size()) - 0.5, false, pixels};
     }
+    if (axis.min && axis.max && !(*axis.min < *axis.max)) {
+        throw std::invalid_argument(
+            fmt::format("the axis '{}' goes from {} to {}; expected a rising interval", axis.label, *axis.min,
+                        *axis.max));
+    }
     if (extent.empty()) {
         extent.low = axis.logarithmic ? 1 : 0;
         extent.high = axis.logarithmic ? 10 : 1;
     }
     const auto warp = [&](double v) { return axis.logarithmic ? std::log10(v) : v; };
     const auto unwarp = [&](double v) { return axis.logarithmic ? std::pow(10, v) : v; };
-    double low = warp(extent.low), high = warp(extent.high);
-    // A single value gets room around it: a third of a decade, or a tenth of itself.
-    const double least = axis.logarithmic ? 0.3 : std::max(0.1 * std::max(std::abs(low), std::abs(high)), 1e-9);
-    const bool flat = high - low < 1e-9 * std::max(1.0, std::max(std::abs(low), std::abs(high)));
-    const double pad = flat ? least : axis.padding * (high - low);
-    low -= unpadded && *unpadded == extent.low ? 0 : pad;
-    high += unpadded && *unpadded == extent.high ? 0 : pad;
-    AxisView view{axis.min.value_or(unwarp(low)), axis.max.value_or(unwarp(high)), axis.logarithmic, pixels};
-    if (!(view.low < view.high)) {  // an end that was given lies beyond the data
-        (axis.max ? view.low : view.high) = axis.max ? unwarp(warp(view.high) - 1) : unwarp(warp(view.low) + 1);
+    double low = warp(axis.min.value_or(extent.low)), high = warp(axis.max.value_or(extent.high));
+    if (low > high) {  // the end that was given lies beyond the data
+        (axis.max ? low : high) = axis.max ? high : low;
     }
-    return view;
+    // A single value gets room around it: a third of a decade, or a tenth of itself.
+    const double size = std::max(std::abs(low), std::abs(high));
+    const double least = axis.logarithmic ? 0.3 : size > 0 ? 0.1 * size : 1;
+    const bool flat = high - low <= 1e-9 * size;
+    const double pad = flat ? least : axis.padding * (high - low);
+    const auto stands = [&](double end) { return !flat && unpadded == end; };
+    low -= axis.min || stands(extent.low) ? 0 : pad;
+    high += axis.max || stands(extent.high) ? 0 : pad;
+    return {axis.min.value_or(unwarp(low)), axis.max.value_or(unwarp(high)), axis.logarithmic, pixels};
 }
 
 /// Widens the axis that has more pixels per metre, about its middle.
 void equaliseAspect(PanelView& view) {
-    const double metres_per_pixel = std::max((view.x.high - view.x.low) / view.x.pixels,
-                                             (view.y.high - view.y.low) / view.y.pixels);
+    const double metres_per_pixel =
+        std::max((view.x.high - view.x.low) / view.x.pixels, (view.y.high - view.y.low) / view.y.pixels);
     for (AxisView* axis : {&view.x, &view.y}) {
         const double middle = (axis->low + axis->high) / 2, half = metres_per_pixel * axis->pixels / 2;
         axis->low = middle - half;

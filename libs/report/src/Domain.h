@@ -21,7 +21,9 @@ struct PanelView {
 
     bool shows(const Eigen::Vector2d& point) const { return x.shows(point.x()) && y.shows(point.y()); }
     Eigen::Vector2d toPixel(const Eigen::Vector2d& p) const { return {x.toPixel(p.x()), y.toPixel(p.y())}; }
-    Eigen::Vector2d fromPixel(const Eigen::Vector2d& p) const { return {x.fromPixel(p.x()), y.fromPixel(p.y())}; }
+    Eigen::Vector2d fromPixel(const Eigen::Vector2d& p) const {
+        return {x.fromPixel(p.x()), y.fromPixel(p.y())};
+    }
 };
 
 PanelView panelView(const Panel& panel, double width);

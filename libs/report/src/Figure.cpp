@@ -29,8 +29,8 @@ Points2 series(const std::vector<double>& x, const std::vector<double>& y) {
 
 Points2 histogramOutline(const std::vector<double>& edges, const std::vector<double>& counts) {
     if (edges.size() != counts.size() + 1) {
-        throw std::invalid_argument(fmt::format("a histogram has {} edges and {} counts; expected one edge more",
-                                                edges.size(), counts.size()));
+        throw std::invalid_argument(fmt::format(
+            "a histogram has {} edges and {} counts; expected one edge more", edges.size(), counts.size()));
     }
     Points2 points;
     points.emplace_back(edges.front(), 0);

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double edge = 14;         // white rim, pixels
+constexpr double edge = 14;  // white rim, pixels
 constexpr double between_rows = 14;
 
 /// Quiet axes: thin grey ticks, pale grid, no heavy frame.
@@ -55,7 +55,8 @@ json figureSpec(const Figure& figure) {
     json data = json::array(), marks = json::array();
     double y = edge;
     if (!figure.title.empty()) {
-        marks.push_back(heading(figure.title, y + title_size - 2, title_size, colour::text, true, figure.width));
+        marks.push_back(
+            heading(figure.title, y + title_size - 2, title_size, colour::text, true, figure.width));
         y += title_size + 8;
     }
     if (!figure.subtitle.empty()) {
@@ -73,8 +74,8 @@ json figureSpec(const Figure& figure) {
             y += row_height + between_rows;
             row_height = 0;
         }
-        PanelSpec panel = panelSpec(figure.panels[i], i, static_cast<double>(i % columns) * panel_width, y,
-                                    panel_width);
+        PanelSpec panel =
+            panelSpec(figure.panels[i], i, static_cast<double>(i % columns) * panel_width, y, panel_width);
         row_height = std::max(row_height, panel.height);
         data.insert(data.end(), panel.data.begin(), panel.data.end());
         marks.insert(marks.end(), panel.marks.begin(), panel.marks.end());

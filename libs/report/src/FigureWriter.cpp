@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Debian 12's vg2svg fails: node-vega lacks the build of the package `vega` that vega-cli loads. Its parts are
-/// whole, and these are the ones a figure needs.
+/// Debian 12's vg2svg fails: node-vega lacks the build of the package `vega` that vega-cli loads. Its parts
+/// are whole, and these are the ones a figure needs.
 constexpr const char* vega_to_svg = R"js(
 'use strict';
 const {transforms} = require('vega-dataflow');
@@ -72,8 +72,8 @@ class PartFile {
 };
 
 ReportError missing(const fs::path& file, const char* what, const char* package) {
-    return ReportError(fmt::format("'{}' was not drawn: {} is missing; install the Debian package {}", file.string(),
-                                   what, package));
+    return ReportError(fmt::format("'{}' was not drawn: {} is missing; install the Debian package {}",
+                                   file.string(), what, package));
 }
 
 void drawSvg(const fs::path& spec, const fs::path& svg) {
@@ -95,14 +95,15 @@ void drawSvg(const fs::path& spec, const fs::path& svg) {
 
 void drawPng(const fs::path& svg, const fs::path& png, double zoom) {
     const PartFile part(png);
-    const ChildResult result = runChild({"rsvg-convert", "--format", "png", "--unlimited", "--background-color",
-                                         "white", "--zoom", fmt::format("{}", zoom)},
+    const ChildResult result = runChild({"rsvg-convert", "--format", "png", "--unlimited",
+                                         "--background-color", "white", "--zoom", fmt::format("{}", zoom)},
                                         svg, part.path());
     if (!result.started) {
         throw missing(png, "the program rsvg-convert", "librsvg2-bin");
     }
     if (result.exit_code != 0) {
-        throw ReportError(fmt::format("'{}' was not drawn: rsvg-convert says '{}'", png.string(), result.errors));
+        throw ReportError(
+            fmt::format("'{}' was not drawn: rsvg-convert says '{}'", png.string(), result.errors));
     }
     part.finish();
 }

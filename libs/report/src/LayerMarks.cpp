@@ -238,7 +238,7 @@ json symbolEncoding(const Points& points) {
         points.symbol == Symbol::times || points.symbol == Symbol::plus || points.symbol == Symbol::ring;
     if (strokes) {
         encoding["stroke"] = constant(points.colour);
-        encoding["strokeWidth"] = constant(1.2);
+        encoding["strokeWidth"] = constant(points.size < 6 ? 0.9 : 1.2);
         encoding["fill"] = constant("transparent");
     } else {
         encoding["fill"] = constant(points.colour);

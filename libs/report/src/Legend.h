@@ -5,8 +5,8 @@
 
 namespace slamot::report {
 
-/// A panel's legend, outside the plotting area: rows above it or a column at its right. Its size is known before
-/// it is drawn, since the panel must leave room.
+/// A panel's legend, outside the plotting area: rows above it or a column at its right. Its size is known
+/// before it is drawn, since the panel must leave room.
 struct LegendSpec {
     double width = 0, height = 0;  ///< zero without entries
     nlohmann::json marks = nlohmann::json::array();

@@ -13,8 +13,9 @@ namespace slamot::report {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double true_width = 5, true_opacity = 0.35;  // wide and pale below the thin, full line of the estimate
-constexpr std::size_t tracks_in_legend = 10;
+constexpr double true_width = 5,
+                 true_opacity = 0.35;  // wide and pale below the thin, full line of the estimate
+constexpr std::size_t names_in_legend = 10;
 
 /// A track's estimated way, with gaps where it was absent.
 struct TrackWay {
@@ -54,7 +55,8 @@ std::vector<TrackWay> trackWays(const eval::RunRecord& run) {
     return sorted;
 }
 
-/// The part of a true way within the run's time, with gaps where truth is silent for longer than it usually is.
+/// The part of a true way within the run's time, with gaps where truth is silent for longer than it usually
+/// is.
 template <class Sample, class Position>
 Points2 trueWay(const std::vector<Sample>& samples, const eval::RunRecord& run, Position position) {
     std::vector<const Sample*> within;
@@ -113,7 +115,9 @@ MapContent contentOf(const eval::RunRecord& run, const Truth* truth) {
 
 MapView viewOf(const MapContent& content) {
     Points2 ways = content.robot, objects = content.landmarks;
-    const auto append = [](Points2& to, const Points2& from) { to.insert(to.end(), from.begin(), from.end()); };
+    const auto append = [](Points2& to, const Points2& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
     append(ways, content.true_robot);
     for (const auto& [id, points] : content.true_targets) {
         append(ways, points);
@@ -133,47 +137,60 @@ Line trueLine(std::string label, Points2 points, std::string colour) {
 
 void addLandmarks(Panel& map, const MapContent& content) {
     const std::size_t count = std::max(content.landmarks.size(), content.true_landmarks.size());
-    const double size = count > 200 ? 3 : count > 50 ? 4 : 5;
+    const double size = count > 500 ? 2.6 : count > 100 ? 3 : count > 30 ? 4 : 5;
     if (!content.true_landmarks.empty()) {
         map.layers.push_back(
             Points{"Landmarks, true", content.true_landmarks, colour::pale_grey, Symbol::times, size + 2});
     }
     if (!content.landmarks.empty()) {
-        map.layers.push_back(Ellipses{"Landmarks, 3σ", content.landmark_gaussians, 3, colour::text});
-        map.layers.push_back(Points{"Landmarks, estimated", content.landmarks, colour::text, Symbol::dot, size});
+        map.layers.push_back(Ellipses{"Landmarks, 3σ ellipses", content.landmark_gaussians, 3, colour::text});
+        map.layers.push_back(
+            Points{"Landmarks, estimated", content.landmarks, colour::text, Symbol::dot, size});
     }
 }
 
-/// Tracks of one object share its colour; an object without a track is grey.
+/// What the tracks of one object have in common.
+struct ObjectEntry {
+    SeriesStyle style;
+    std::size_t tracks = 0;
+    bool named = false;
+};
+
+/// Tracks of one object share its colour and its entry in the legend; what is true of it is the same colour,
+/// pale. An object without a track is grey.
 void addTargets(Panel& map, const MapContent& content) {
-    std::map<SourceId, SeriesStyle> object_styles;
-    std::vector<Layer> estimates;
-    std::size_t colours_used = 0;
+    std::map<SourceId, ObjectEntry> objects;
+    std::size_t styles = 0, names = 0;
     for (const TrackWay& track : content.tracks) {
-        SeriesStyle style;
-        if (const auto known = object_styles.find(track.source); track.source.valid() && known != object_styles.end()) {
-            style = known->second;
-        } else {
-            style = seriesStyle(colours_used++);
-            if (track.source.valid()) {
-                object_styles[track.source] = style;
-            }
+        if (track.source.valid() && objects[track.source].tracks++ == 0) {
+            objects[track.source].style = seriesStyle(styles++);
         }
-        const std::string label =
-            estimates.size() >= tracks_in_legend ? ""
-            : track.source.valid() ? fmt::format("Track {} (object {})", track.id.value, track.source.value)
-                                   : fmt::format("Track {}", track.id.value);
-        estimates.push_back(Line{label, track.points, style.colour, 1.6, style.dash});
     }
-    bool untracked = false;
-    for (const auto& [id, points] : content.true_targets) {
-        const auto style = object_styles.find(id);
-        if (style != object_styles.end()) {
-            map.layers.push_back(trueLine("", points, style->second.colour));
-        } else {
-            map.layers.push_back(trueLine(untracked ? "" : "Object without track, true", points, colour::grey));
-            untracked = true;
+    std::vector<Layer> estimates;
+    for (const TrackWay& track : content.tracks) {
+        ObjectEntry anonymous;
+        ObjectEntry& object = track.source.valid() ? objects[track.source] : anonymous;
+        if (!track.source.valid()) {
+            object = {seriesStyle(styles++), 1, false};
         }
+        std::string label;
+        if (!object.named && names < names_in_legend) {
+            label = object.tracks > 1 ? fmt::format("Object {}, {} tracks", track.source.value, object.tracks)
+                    : track.source.valid()
+                        ? fmt::format("Track {} (object {})", track.id.value, track.source.value)
+                        : fmt::format("Track {}", track.id.value);
+            object.named = true;
+            ++names;
+        }
+        estimates.push_back(Line{label, track.points, object.style.colour, 1.6, object.style.dash});
+    }
+    if (!content.true_targets.empty()) {  // an entry of the legend without points of its own
+        map.layers.push_back(trueLine("Moving objects, true", {}, colour::grey));
+    }
+    for (const auto& [id, points] : content.true_targets) {
+        const auto object = objects.find(id);
+        map.layers.push_back(
+            trueLine("", points, object == objects.end() ? colour::grey : object->second.style.colour));
     }
     map.layers.insert(map.layers.end(), estimates.begin(), estimates.end());
 }
@@ -185,14 +202,15 @@ void addRobot(Panel& map, const MapContent& content) {
     map.layers.push_back(Line{"Robot, estimated", content.robot, colour::blue, 1.6});
     if (!content.robot.empty()) {
         map.layers.push_back(
-            Points{"Start", {content.robot.front()}, colour::blue, Symbol::square, 10, 1, true});
-        map.layers.push_back(Points{"End", {content.robot.back()}, colour::blue, Symbol::dot, 10, 1, true});
+            Points{"Start", {content.robot.front()}, colour::blue, Symbol::square, 12, 1, true});
+        map.layers.push_back(Points{"End", {content.robot.back()}, colour::blue, Symbol::dot, 8, 1, true});
     }
 }
 
 Panel mapPanel(const MapContent& content) {
     const MapView view = viewOf(content);
-    const Eigen::Vector2d extent = view.high - view.low, rim = 0.03 * extent.maxCoeff() * Eigen::Vector2d::Ones();
+    const Eigen::Vector2d extent = view.high - view.low,
+                          rim = 0.03 * extent.maxCoeff() * Eigen::Vector2d::Ones();
     Panel map;
     map.x.label = "x";
     map.y.label = "y";
@@ -209,17 +227,14 @@ Panel mapPanel(const MapContent& content) {
     addTargets(map, content);
     addRobot(map, content);
     if (view.outside > 0) {
-        map.note = fmt::format("{} of {} landmarks lie outside the view.", view.outside, content.landmarks.size());
-    }
-    if (content.tracks.size() > tracks_in_legend) {
-        map.note += fmt::format("{}{} shorter tracks are drawn but not named.", map.note.empty() ? "" : " ",
-                                content.tracks.size() - tracks_in_legend);
+        map.note =
+            fmt::format("{} of {} landmarks lie outside the view.", view.outside, content.landmarks.size());
     }
     return map;
 }
 
 struct ErrorCurve {
-    Points2 errors;           ///< [s since the start, m]; NaN where truth is silent
+    Points2 errors;  ///< [s since the start, m]; NaN where truth is silent
     std::vector<BandRow> bound;
     double rmse = nan;
 };
@@ -265,10 +280,15 @@ Panel errorPanel(const ErrorCurve& curve) {
 }
 
 std::string summary(const eval::RunRecord& run, const MapContent& content, double rmse) {
-    const double duration =
-        run.trajectory.empty() ? 0 : secondsBetween(run.trajectory.front().stamp, run.trajectory.back().stamp);
-    std::string text = fmt::format("{:.1f} s, {} steps, {} landmarks, {} tracks", duration, run.trajectory.size(),
-                                   content.landmarks.size(), content.tracks.size());
+    const double duration = run.trajectory.empty()
+                                ? 0
+                                : secondsBetween(run.trajectory.front().stamp, run.trajectory.back().stamp);
+    const auto counted = [](std::size_t count, const char* what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    std::string text =
+        fmt::format("{:.1f} s, {}, {}, {}", duration, counted(run.trajectory.size(), "step"),
+                    counted(content.landmarks.size(), "landmark"), counted(content.tracks.size(), "track"));
     if (std::isfinite(rmse)) {
         text += fmt::format("; robot position RMSE {:.3g} m", rmse);
     }

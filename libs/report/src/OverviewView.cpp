@@ -54,17 +54,21 @@ MapView mapView(const Points2& ways, const Points2& objects) {
         std::sort(things.begin(), things.end(),
                   [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
         const std::size_t few = things.size() < 10 ? 0 : (things.size() + 49) / 50;  // 2 %, rounded up
-        const Box all = boxOf(things, things.size()).merged(core);
         const Box most = boxOf(things, things.size() - few).merged(core);
-        const bool squashed = (all.sizes().array() > 2 * most.sizes().array()).any();
-        box = squashed ? most : all;
+        box = most;
+        for (std::size_t i = things.size() - few; i < things.size(); ++i) {
+            const Box with = box.merged(Box(things[i]));
+            box = (with.sizes().array() <= 2 * most.sizes().array()).all() ? with : box;
+        }
     }
     // A standing robot without a map still gets a metre around it.
     const double least = std::max(1.0, 0.05 * box.sizes().maxCoeff()) / 2;
-    view.low = box.center() - (box.sizes() / 2).cwiseMax(least);
-    view.high = box.center() + (box.sizes() / 2).cwiseMax(least);
-    view.outside = static_cast<std::size_t>(std::count_if(
-        things.begin(), things.end(), [&](const Eigen::Vector2d& p) { return !Box(view.low, view.high).contains(p); }));
+    view.low = box.min().cwiseMin((box.center().array() - least).matrix());
+    view.high = box.max().cwiseMax((box.center().array() + least).matrix());
+    view.outside =
+        static_cast<std::size_t>(std::count_if(things.begin(), things.end(), [&](const Eigen::Vector2d& p) {
+            return !Box(view.low, view.high).contains(p);
+        }));
     return view;
 }
 

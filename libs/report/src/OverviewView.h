@@ -8,8 +8,9 @@ struct MapView {
     std::size_t outside = 0;                  ///< how many of `objects` lie beyond it
 };
 
-/// The box that holds all of `ways` and `objects`; but if the furthest 2 % of ten or more objects (at least one) make
-/// it more than twice as wide or high, it leaves those out. Values that are not finite do not count.
+/// The box that holds all of `ways` and `objects`; but of the furthest 2 % of ten or more objects (at least
+/// one) it leaves out those that would make it more than twice as wide or high. Values that are not finite do
+/// not count.
 MapView mapView(const Points2& ways, const Points2& objects);
 
 }  // namespace slamot::report

@@ -34,30 +34,39 @@ std::string axisTitle(const Axis& axis) {
     return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
-/// Labels that fit beside the axis: 12k rather than 12,000,000 and 2e-5 rather than 0.00002.
+/// Labels that fit beside the axis: 12M rather than 12,000,000 and 2e-5 rather than 0.00002.
 json tickFormat(const AxisView& view) {
     const double largest = std::max(std::abs(view.low), std::abs(view.high));
-    if (view.logarithmic) {
-        return view.low < 1e-3 ? "~e" : "~s";
-    }
     return largest >= 1e5 ? json("~s") : largest < 2e-3 ? json("~e") : json();
 }
 
+/// Powers of ten at most `count` of them, with their doubles and fives where only few would be in view.
+json logarithmicTicks(const AxisView& view, double count) {
+    const int first = static_cast<int>(std::floor(std::log10(view.low)));
+    const int last = static_cast<int>(std::ceil(std::log10(view.high)));
+    const int step = std::max(1, static_cast<int>(std::ceil((last - first) / count)));
+    const bool finely = std::log10(view.high / view.low) <= 2;
+    json ticks = json::array();
+    for (int exponent = first - (first % step); exponent <= last; exponent += step) {
+        for (const int digit : {1, 2, 5}) {
+            const double tick = digit * std::pow(10, exponent);
+            if ((digit == 1 || finely) && tick >= view.low && tick <= view.high) {
+                ticks.push_back(tick);
+            }
+        }
+    }
+    return ticks;
+}
+
 json axisSpec(const Axis& axis, const AxisView& view, bool upright) {
-    json result = {{"scale", upright ? "y" : "x"},
-                   {"orient", upright ? "left" : "bottom"},
-                   {"title", axisTitle(axis)},
-                   {"grid", axis.categories.empty()},
-                   {"zindex", 0},
-                   {"labelOverlap", "greedy"}};
+    json result = {{"scale", upright ? "y" : "x"},     {"orient", upright ? "left" : "bottom"},
+                   {"title", axisTitle(axis)},         {"grid", axis.categories.empty() || upright},
+                   {"gridScale", upright ? "x" : "y"}, {"labelOverlap", "greedy"}};
     // Labels a fixed number of pixels apart, so that both axes of a map get the same step.
-    result["tickCount"] = view.pixels / (upright ? 55 : 75);
+    const double count = view.pixels / (upright ? 55 : 75);
+    json& label = result["encode"]["labels"]["update"]["text"]["signal"];
     if (upright) {
         result["minExtent"] = result["maxExtent"] = tick_label_room;
-    }
-    const json format = tickFormat(view);
-    if (!format.is_null()) {
-        result["format"] = format;
     }
     if (!axis.categories.empty()) {
         json places = json::array();
@@ -67,7 +76,18 @@ json axisSpec(const Axis& axis, const AxisView& view, bool upright) {
         result["values"] = places;
         result["ticks"] = false;
         result["labelOverlap"] = false;
-        result["encode"]["labels"]["update"]["text"]["signal"] = json(axis.categories).dump() + "[datum.value]";
+        label = json(axis.categories).dump() + "[datum.value]";
+    } else if (view.logarithmic) {
+        result["values"] = logarithmicTicks(view, view.pixels / (upright ? 25 : 50));
+        label =
+            "datum.value < 0.001 || datum.value > 99999 ? format(datum.value, '~e') : format(datum.value, "
+            "'~g')";
+    } else {
+        result["tickCount"] = count;
+        result.erase("encode");
+        if (const json format = tickFormat(view); !format.is_null()) {
+            result["format"] = format;
+        }
     }
     return result;
 }
@@ -117,6 +137,7 @@ json colourBar(const HeatMap& map, const std::string& name, double x, double y, 
     json spec = axisSpec(axis, view, true);
     spec["orient"] = "right";
     spec["grid"] = false;
+    spec.erase("gridScale");  // the bar has one scale only
     spec["minExtent"] = spec["maxExtent"] = tick_label_room - 4;
     bar["axes"] = json::array({spec});
     return bar;
@@ -141,7 +162,8 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
     spec.marks = json::array();
     json plot = groupMark(fmt::format("panel_{}", index), plot_left, plot_top, plot_width, panel.height);
     plot["encode"]["update"]["stroke"] = constant(colour::frame);
-    plot["scales"] = json::array({scale("x", view.x, {0, plot_width}), scale("y", view.y, {panel.height, 0})});
+    plot["scales"] =
+        json::array({scale("x", view.x, {0, plot_width}), scale("y", view.y, {panel.height, 0})});
     plot["axes"] = json::array({axisSpec(panel.x, view.x, false), axisSpec(panel.y, view.y, true)});
     plot["marks"] = json::array();
     for (std::size_t i = 0; i < panel.layers.size(); ++i) {
@@ -157,8 +179,8 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
     spec.marks.push_back(std::move(plot));
 
     if (!panel.title.empty()) {
-        spec.marks.push_back(textMark(fitText(panel.title, panel_title_size, width - left_margin), plot_left, top + 12,
-                                      panel_title_size, colour::text, true));
+        spec.marks.push_back(textMark(fitText(panel.title, panel_title_size, width - left_margin), plot_left,
+                                      top + 12, panel_title_size, colour::text, true));
     }
     if (legend.height > 0) {
         json group = groupMark(fmt::format("legend_{}", index),

@@ -43,9 +43,9 @@ Points2 decimate(const Points2& run, const Points2& pixels, const PanelView& vie
     if (static_cast<double>(run.size()) <= 4 * view.x.pixels && run.size() <= 1000) {
         return run;
     }
-    constexpr double tolerance = 0.1;  // pixels
-    const bool rising =
-        std::is_sorted(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    constexpr double tolerance = 0.2;  // pixels
+    const bool rising = std::is_sorted(pixels.begin(), pixels.end(),
+                                       [](const auto& a, const auto& b) { return a.x() < b.x(); });
     Points2 kept;
     for (const std::size_t i : rising ? keepColumnExtremes(pixels) : simplifyPath(pixels, tolerance)) {
         kept.push_back(run[i]);
@@ -102,7 +102,8 @@ std::vector<Points2> visiblePieces(const Points2& points, const PanelView& view)
 
 bool nearPanel(const Eigen::Vector2d& point, const PanelView& view, double reach) {
     const Eigen::Vector2d p = view.toPixel(point);
-    return p.x() >= -reach && p.x() <= view.x.pixels + reach && p.y() >= -reach && p.y() <= view.y.pixels + reach;
+    return p.x() >= -reach && p.x() <= view.x.pixels + reach && p.y() >= -reach &&
+           p.y() <= view.y.pixels + reach;
 }
 
 }  // namespace slamot::report

@@ -122,6 +122,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     result.end_message = reader.endMessage();
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
+    result.writes_figure = assembled.config.output.figure;
 
     SummaryInput summary;
     summary.status = status;

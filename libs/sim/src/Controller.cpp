@@ -14,8 +14,8 @@ double steeringTowards(const Pose2& robot, const Vector2& goal, double max_steer
 Steering pursue(const Pose2& robot, const Vector2& target, const std::vector<SpeedLevel>& levels,
                 double max_steering) {
     const double distance = (target - robot.position()).norm();
-    const auto level =
-        std::find_if(levels.begin(), levels.end(), [&](const SpeedLevel& l) { return distance < l.distance; });
+    const auto level = std::find_if(levels.begin(), levels.end(),
+                                    [&](const SpeedLevel& l) { return distance < l.distance; });
     return {level == levels.end() ? levels.back().speed : level->speed,
             steeringTowards(robot, target, max_steering)};
 }

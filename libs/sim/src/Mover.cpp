@@ -19,10 +19,14 @@ struct Body {
 
 const char* modeName(TargetModelKind kind) {
     switch (kind) {
-        case TargetModelKind::cv: return "cv";
-        case TargetModelKind::ca: return "ca";
-        case TargetModelKind::ct: return "ct";
-        case TargetModelKind::unicycle: break;
+        case TargetModelKind::cv:
+            return "cv";
+        case TargetModelKind::ca:
+            return "ca";
+        case TargetModelKind::ct:
+            return "ct";
+        case TargetModelKind::unicycle:
+            break;
     }
     return "unicycle";
 }
@@ -30,11 +34,16 @@ const char* modeName(TargetModelKind kind) {
 /// The schedule of any mover that is not a waypoint mover.
 std::vector<ScheduleEntry> scheduleOf(const MoverParameters& mover) {
     switch (mover.model) {
-        case MoverModel::schedule: return mover.schedule;
-        case MoverModel::ca: return {{0, TargetModelKind::ca, {}}};
-        case MoverModel::ct: return {{0, TargetModelKind::ct, {}}};
-        case MoverModel::unicycle: return {{0, TargetModelKind::unicycle, {}}};
-        default: return {{0, TargetModelKind::cv, {}}};
+        case MoverModel::schedule:
+            return mover.schedule;
+        case MoverModel::ca:
+            return {{0, TargetModelKind::ca, {}}};
+        case MoverModel::ct:
+            return {{0, TargetModelKind::ct, {}}};
+        case MoverModel::unicycle:
+            return {{0, TargetModelKind::unicycle, {}}};
+        default:
+            return {{0, TargetModelKind::cv, {}}};
     }
 }
 
@@ -151,7 +160,8 @@ std::size_t inForce(const std::vector<ScheduleEntry>& schedule, Stamp stamp) {
 }
 
 /// One draw; nothing when it leaves the arena.
-std::optional<Trajectory> draw(const Scenario& scenario, const MoverParameters& mover, std::uint64_t seed, int redraw) {
+std::optional<Trajectory> draw(const Scenario& scenario, const MoverParameters& mover, std::uint64_t seed,
+                               int redraw) {
     const auto streamOf = [&](int step) {
         return RandomStream(seed, RandomPurpose::mover, static_cast<std::uint32_t>(mover.id.value),
                             static_cast<std::uint32_t>(step), static_cast<std::uint32_t>(redraw));
@@ -178,9 +188,9 @@ std::optional<Trajectory> draw(const Scenario& scenario, const MoverParameters& 
             previous = entry;
         }
         if (mover.arena && !mover.arena->contains(body.x.head<2>())) return std::nullopt;
-        trajectory.states.push_back(toTruth(
-            body, scenario.stampOfStep(step),
-            mover.model == MoverModel::waypoint ? "waypoint" : modeName(schedule[entry].kind)));
+        trajectory.states.push_back(
+            toTruth(body, scenario.stampOfStep(step),
+                    mover.model == MoverModel::waypoint ? "waypoint" : modeName(schedule[entry].kind)));
     }
     return trajectory;
 }

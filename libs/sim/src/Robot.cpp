@@ -17,8 +17,9 @@ Vector3 arcControl(const Vector2& u, double dt) {
 /// Noise of an arc's [ds dl dtheta]: random walks along path and turn, as RobotMotionParameters has them.
 Vector3 arcNoise(const RobotMotionParameters& motion, const Vector3& u, RandomStream& random) {
     const double root_path = std::sqrt(std::abs(u.x())), turn = std::abs(u.z());
-    const double heading_std = std::sqrt(motion.heading_std_per_sqrt_m * motion.heading_std_per_sqrt_m * std::abs(u.x()) +
-                                         motion.heading_std_per_sqrt_rad * motion.heading_std_per_sqrt_rad * turn);
+    const double heading_std =
+        std::sqrt(motion.heading_std_per_sqrt_m * motion.heading_std_per_sqrt_m * std::abs(u.x()) +
+                  motion.heading_std_per_sqrt_rad * motion.heading_std_per_sqrt_rad * turn);
     const double along = random.normal(0, motion.along_std_per_sqrt_m * root_path);
     const double across = random.normal(0, motion.across_std_per_sqrt_m * root_path);
     return {along, across, random.normal(0, heading_std)};
@@ -32,13 +33,16 @@ Vector2 controlNoise(const RobotMotionParameters& motion, RandomStream& random) 
 }
 
 /// Where u = [v gamma] or [v omega], with `arc_noise` on the arc model's control, leads in dt.
-Pose2 moved(const RobotMotionParameters& motion, const Pose2& pose, const Vector2& u, const Vector3& arc_noise,
-            double dt) {
+Pose2 moved(const RobotMotionParameters& motion, const Pose2& pose, const Vector2& u,
+            const Vector3& arc_noise, double dt) {
     const Vector3 x = pose.vector();
     switch (motion.model) {
-        case RobotMotionModel::steered: return Pose2::fromVector(steeredMotion<double>(x, u, dt, motion.wheelbase));
-        case RobotMotionModel::differential: return Pose2::fromVector(differentialMotion<double>(x, u, dt));
-        default: return Pose2::fromVector(arcMotion<double>(x, arcControl(u, dt) + arc_noise));
+        case RobotMotionModel::steered:
+            return Pose2::fromVector(steeredMotion<double>(x, u, dt, motion.wheelbase));
+        case RobotMotionModel::differential:
+            return Pose2::fromVector(differentialMotion<double>(x, u, dt));
+        default:
+            return Pose2::fromVector(arcMotion<double>(x, arcControl(u, dt) + arc_noise));
     }
 }
 
@@ -82,7 +86,8 @@ RobotRun simulateRobot(const Scenario& scenario, const RobotParameters& robot, c
         dead_reckoned = moved(robot.motion, dead_reckoned, command, Vector3::Zero(), dt);
         run.poses.push_back(pose);
         if (step % robot.control_every_n_steps == 0 || step == scenario.steps) {
-            run.odometry.push_back({scenario.stampOfStep(step), dead_reckoned, bodyVelocity(robot.motion, command)});
+            run.odometry.push_back(
+                {scenario.stampOfStep(step), dead_reckoned, bodyVelocity(robot.motion, command)});
         }
     }
     return run;

@@ -25,8 +25,8 @@ std::vector<int> numbersAfter(const Config& config, const std::string& prefix) {
     for (const std::string& name : namesAfter(config, prefix)) {
         const std::optional<int> number = smallNumberFromText(name);
         if (!number || std::to_string(*number) != name) {
-            throw ConfigError(config.origin(prefix + name) + ": section [" + prefix + name + "]: expected a whole " +
-                              "number from 0 to 999999 after '" + prefix + "'");
+            throw ConfigError(config.origin(prefix + name) + ": section [" + prefix + name +
+                              "]: expected a whole " + "number from 0 to 999999 after '" + prefix + "'");
         }
         numbers.push_back(*number);
     }
@@ -68,8 +68,8 @@ Scenario loadScenario(const Config& config) {
     const std::vector<int> robots = numbersAfter(config, robot_prefix);
     if (config.has("robot")) {
         if (!robots.empty()) {
-            throw ConfigError(config.origin("robot") + ": both [robot] and [robot." + std::to_string(robots.front()) +
-                              "] are there: expected one of the two forms");
+            throw ConfigError(config.origin("robot") + ": both [robot] and [robot." +
+                              std::to_string(robots.front()) + "] are there: expected one of the two forms");
         }
         load(describe(scenario.robots.emplace_back()), config);
     }

@@ -45,7 +45,8 @@ ParameterTable describe(WorldParameters& w) {
 }
 
 ParameterTable describe(MoverParameters& m) {
-    ParameterTable t("mover." + std::to_string(m.id.value), "A moving thing; the section's number is its id.");
+    ParameterTable t("mover." + std::to_string(m.id.value),
+                     "A moving thing; the section's number is its id.");
     t.choice("model", m.model,
              {{"cv", MoverModel::cv},
               {"ca", MoverModel::ca},
@@ -53,17 +54,20 @@ ParameterTable describe(MoverParameters& m) {
               {"unicycle", MoverModel::unicycle},
               {"schedule", MoverModel::schedule},
               {"waypoint", MoverModel::waypoint}},
-             "constant velocity, constant acceleration, coordinated turn, speed and turn rate, these by schedule, or "
+             "constant velocity, constant acceleration, coordinated turn, speed and turn rate, these by "
+             "schedule, or "
              "along a path.");
-    addSchedule(t, "schedule", m.schedule,
-                "schedule: which model from when on; a third part is the turn rate [deg/s] of ct and unicycle.");
+    addSchedule(
+        t, "schedule", m.schedule,
+        "schedule: which model from when on; a third part is the turn rate [deg/s] of ct and unicycle.");
     t.real("cv_acceleration_std", m.cv_acceleration_std, "m/s^2", from_zero, "cv: driving noise.");
     t.real("ca_jerk_std", m.ca_jerk_std, "m/s^3", from_zero, "ca: driving noise.");
     t.real("ct_acceleration_std", m.ct_acceleration_std, "m/s^2", from_zero, "ct: driving noise.");
     t.real("ct_turn_rate_deg", m.ct_turn_rate, "deg/s", any_finite, "ct: turn rate, to the left.");
     t.real("unicycle_acceleration_std", m.unicycle_acceleration_std, "m/s^2", from_zero,
            "unicycle: driving noise along the heading.");
-    t.real("unicycle_turn_rate_deg", m.unicycle_turn_rate, "deg/s", any_finite, "unicycle: turn rate at first.");
+    t.real("unicycle_turn_rate_deg", m.unicycle_turn_rate, "deg/s", any_finite,
+           "unicycle: turn rate at first.");
     t.real("unicycle_turn_rate_std_deg", m.unicycle_turn_rate_std, "deg/s", from_zero,
            "unicycle: change of the turn rate per step.");
     t.real("unicycle_speed_jitter", m.unicycle_speed_jitter, "m/s", from_zero,
@@ -72,8 +76,8 @@ ParameterTable describe(MoverParameters& m) {
            "unicycle: noise on the turn rate, independent from step to step (paper 2).");
     addPath(t, "path", m.path, "waypoint: the points to visit.");
     t.integer("loops", m.loops, {0, max_count}, "waypoint: how often the path is driven; 0 for ever.");
-    t.real("speed", m.speed, "m/s", from_zero, "waypoint.");
-    t.real("max_turn_rate_deg", m.max_turn_rate, "deg/s", above_zero, "waypoint.");
+    t.real("speed", m.speed, "m/s", from_zero, "waypoint: pace.");
+    t.real("max_turn_rate_deg", m.max_turn_rate, "deg/s", above_zero, "waypoint: fastest turn.");
     t.real("reach_distance", m.reach_distance, "m", above_zero, "waypoint: a point this near is reached.");
     addPoint(t, "position", m.position, "m", "at the start; auto: uniform in start_box.");
     addBox(t, "start_box", m.start_box, "where the position is drawn.");
@@ -103,47 +107,53 @@ ParameterTable describe(RobotParameters& r) {
            "steered; others turn, with the controllers waypoints and pursuit, as if they had it.");
     t.real("speed_std", m.speed_std, "m/s", from_zero, "steered, differential: one draw per command.");
     t.real("steering_std_deg", m.steering_std, "deg", from_zero, "steered: one draw per command.");
-    t.real("turn_rate_std_deg", m.turn_rate_std, "deg/s", from_zero,
-           "differential: one draw per command.");
-    t.real("along_std_per_sqrt_m", m.along_std_per_sqrt_m, "m/sqrt(m)", from_zero, "arc.");
-    t.real("across_std_per_sqrt_m", m.across_std_per_sqrt_m, "m/sqrt(m)", from_zero, "arc.");
-    t.real("heading_std_per_sqrt_m", m.heading_std_per_sqrt_m, "rad/sqrt(m)", from_zero, "arc.");
-    t.real("heading_std_per_sqrt_rad", m.heading_std_per_sqrt_rad, "rad/sqrt(rad)", from_zero, "arc.");
+    t.real("turn_rate_std_deg", m.turn_rate_std, "deg/s", from_zero, "differential: one draw per command.");
+    t.real("along_std_per_sqrt_m", m.along_std_per_sqrt_m, "m/sqrt(m)", from_zero,
+           "arc: random walk along the path.");
+    t.real("across_std_per_sqrt_m", m.across_std_per_sqrt_m, "m/sqrt(m)", from_zero,
+           "arc: random walk across it.");
+    t.real("heading_std_per_sqrt_m", m.heading_std_per_sqrt_m, "rad/sqrt(m)", from_zero,
+           "arc: random walk of the heading by distance.");
+    t.real("heading_std_per_sqrt_rad", m.heading_std_per_sqrt_rad, "rad/sqrt(rad)", from_zero,
+           "arc: random walk of the heading by turn.");
     t.choice("controller", r.controller,
              {{"constant", ControllerKind::constant},
               {"waypoints", ControllerKind::waypoints},
               {"pursuit", ControllerKind::pursuit}},
              "who drives, seeing the true scene.");
-    t.real("speed", r.speed, "m/s", any_finite, "constant, waypoints.");
+    t.real("speed", r.speed, "m/s", any_finite, "constant, waypoints: commanded.");
     t.real("steering_deg", r.steering, "deg", {-90, 90, true, true},
-           "constant, of a steered robot.");
-    t.real("turn_rate_deg", r.turn_rate, "deg/s", any_finite, "constant, of the other robots.");
-    t.real("max_steering_deg", r.max_steering, "deg", {0, 90, true, true}, "waypoints, pursuit.");
+           "constant: commanded to a steered robot.");
+    t.real("turn_rate_deg", r.turn_rate, "deg/s", any_finite, "constant: commanded to the other robots.");
+    t.real("max_steering_deg", r.max_steering, "deg", {0, 90, true, true},
+           "waypoints, pursuit: limit either side.");
     addPath(t, "path", r.path, "waypoints: the points to visit; none: the centre line of a loop world.");
     t.integer("loops", r.loops, {0, max_count}, "waypoints: how often the path is driven; 0 for ever.");
     t.real("reach_distance", r.reach_distance, "m", above_zero, "waypoints: a point this near is reached.");
     addId(t, "target", r.target, "pursuit: id of the mover; while it is not there the robot stands.");
-    addLevels(t, "levels", r.levels, "pursuit: speed while nearer than the distance; beyond the last: its speed.");
+    addLevels(t, "levels", r.levels,
+              "pursuit: speed while nearer than the distance; beyond the last: its speed.");
     t.integer("control_every_n_steps", r.control_every_n_steps, {1, max_count},
               "a command holds so long; odometry is logged at its end.");
     return t;
 }
 
 ParameterTable describe(SensorParameters& s) {
-    ParameterTable t("sensor." + s.label, "A range-bearing sensor; the section's second name is its label in the log.");
-    t.choice("role", s.role,
-             {{"landmarks", SensorRole::landmarks}, {"movers", SensorRole::movers}, {"mixed", SensorRole::mixed}},
-             "what it sees; labels of these names have this role by default.");
+    ParameterTable t("sensor." + s.label,
+                     "A range-bearing sensor; the section's second name is its label in the log.");
+    t.choice(
+        "role", s.role,
+        {{"landmarks", SensorRole::landmarks}, {"movers", SensorRole::movers}, {"mixed", SensorRole::mixed}},
+        "what it sees; labels of these names have this role by default.");
     addNumbers(t, "robots", s.robots, "numbers of the robots that carry it.");
-    addPoint(t, "position", s.position, "m", "on the robot.");
-    t.real("orientation_deg", s.orientation, "deg", any_finite, "on the robot.");
+    addPoint(t, "position", s.position, "m", "where it is mounted on the robot.");
+    t.real("orientation_deg", s.orientation, "deg", any_finite, "where it looks, from the robot's heading.");
     t.real("field_of_view_deg", s.field_of_view, "deg", {0, 360, true, false}, "full width, rim included.");
-    t.real("min_range", s.min_range, "m", from_zero, "included.");
-    t.real("max_range", s.max_range, "m", above_zero, "included.");
+    t.real("min_range", s.min_range, "m", from_zero, "nearest, included.");
+    t.real("max_range", s.max_range, "m", above_zero, "farthest, included.");
     t.real("range_std", s.range_std, "m", above_zero, "noise the log claims.");
     t.real("bearing_std_deg", s.bearing_std, "deg", above_zero, "noise the log claims.");
-    t.optionalReal("true_range_std", s.true_range_std, "m", from_zero,
-                   "noise it has; auto: as claimed.");
+    t.optionalReal("true_range_std", s.true_range_std, "m", from_zero, "noise it has; auto: as claimed.");
     t.optionalReal("true_bearing_std_deg", s.true_bearing_std, "deg", from_zero,
                    "noise it has; auto: as claimed.");
     t.real("detection_probability", s.detection_probability, "-", Interval::probability(),
@@ -153,8 +163,11 @@ ParameterTable describe(SensorParameters& s) {
     t.real("outlier_probability", s.outlier_probability, "-", Interval::probability(),
            "of a detection whose range and bearing are replaced by a uniform draw; its identity stays.");
     t.choice("identities", s.identities,
-             {{"auto", IdentityRule::automatic}, {"written", IdentityRule::written}, {"hidden", IdentityRule::hidden}},
-             "whether the log gives true ids; auto: written unless the role is mixed, where they would be ambiguous.");
+             {{"auto", IdentityRule::automatic},
+              {"written", IdentityRule::written},
+              {"hidden", IdentityRule::hidden}},
+             "whether the log gives true ids; auto: written unless the role is mixed, where they would be "
+             "ambiguous.");
     t.integer("every_n_steps", s.every_n_steps, {1, max_count}, "a scan every so many steps.");
     t.integer("phase", s.phase, {0, max_count}, "the step of the first scan, below every_n_steps.");
     return t;

@@ -9,10 +9,11 @@ namespace slamot::sim {
 namespace {
 
 const std::vector<std::pair<std::string, TargetModelKind>>& modelWords() {
-    static const std::vector<std::pair<std::string, TargetModelKind>> words{{"cv", TargetModelKind::cv},
-                                                                            {"ca", TargetModelKind::ca},
-                                                                            {"ct", TargetModelKind::ct},
-                                                                            {"unicycle", TargetModelKind::unicycle}};
+    static const std::vector<std::pair<std::string, TargetModelKind>> words{
+        {"cv", TargetModelKind::cv},
+        {"ca", TargetModelKind::ca},
+        {"ct", TargetModelKind::ct},
+        {"unicycle", TargetModelKind::unicycle}};
     return words;
 }
 
@@ -32,7 +33,8 @@ std::vector<std::string> wordsOf(const std::string& text) {
 }
 
 std::string withoutSpaces(std::string text) {
-    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t'; }), text.end());
+    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t'; }),
+               text.end());
     return text;
 }
 
@@ -107,7 +109,8 @@ std::string textOf(const ScheduleEntry& entry) {
 template <class T>
 void addField(ParameterTable& table, const std::string& key, T& field, const std::string& unit,
               const std::string& expected, const std::string& help,
-              std::function<std::optional<T>(const std::string&)> read, std::function<std::string(const T&)> write) {
+              std::function<std::optional<T>(const std::string&)> read,
+              std::function<std::string(const T&)> write) {
     table.custom({key, unit, expected, help,
                   [&field, read, expected](const std::string& text) -> std::optional<std::string> {
                       std::optional<T> value = read(text);
@@ -120,9 +123,9 @@ void addField(ParameterTable& table, const std::string& key, T& field, const std
 
 /// As addField, for a field that may be absent, which `word` says.
 template <class T>
-void addOptionalField(ParameterTable& table, const std::string& key, std::optional<T>& field, const std::string& unit,
-                      const std::string& expected, const std::string& word, const std::string& help,
-                      std::optional<T> (*read)(const std::string&)) {
+void addOptionalField(ParameterTable& table, const std::string& key, std::optional<T>& field,
+                      const std::string& unit, const std::string& expected, const std::string& word,
+                      const std::string& help, std::optional<T> (*read)(const std::string&)) {
     using Field = std::optional<T>;
     addField<Field>(
         table, key, field, unit, expected + " or " + word, help,
@@ -137,7 +140,8 @@ void addOptionalField(ParameterTable& table, const std::string& key, std::option
 /// A list of words; the empty list is written as `none`.
 template <class T>
 void addList(ParameterTable& table, const std::string& key, std::vector<T>& field, const std::string& unit,
-             const std::string& expected, const std::string& help, std::optional<T> (*read)(const std::string&)) {
+             const std::string& expected, const std::string& help,
+             std::optional<T> (*read)(const std::string&)) {
     using List = std::vector<T>;
     addField<List>(
         table, key, field, unit, expected + " separated by spaces, or none", help,
@@ -175,8 +179,8 @@ void addPoint(ParameterTable& table, const std::string& key, Vector2& field, con
                       [](const Vector2& p) { return textOf(p); });
 }
 
-void addPoint(ParameterTable& table, const std::string& key, std::optional<Vector2>& field, const std::string& unit,
-              const std::string& help) {
+void addPoint(ParameterTable& table, const std::string& key, std::optional<Vector2>& field,
+              const std::string& unit, const std::string& help) {
     addOptionalField<Vector2>(table, key, field, unit, point_form, "auto", help, pointFrom);
 }
 
@@ -184,11 +188,13 @@ void addBox(ParameterTable& table, const std::string& key, Box& field, const std
     addField<Box>(table, key, field, "m", box_form, help, boxFrom, [](const Box& b) { return textOf(b); });
 }
 
-void addBox(ParameterTable& table, const std::string& key, std::optional<Box>& field, const std::string& help) {
+void addBox(ParameterTable& table, const std::string& key, std::optional<Box>& field,
+            const std::string& help) {
     addOptionalField<Box>(table, key, field, "m", box_form, "none", help, boxFrom);
 }
 
-void addPath(ParameterTable& table, const std::string& key, std::vector<Vector2>& field, const std::string& help) {
+void addPath(ParameterTable& table, const std::string& key, std::vector<Vector2>& field,
+             const std::string& help) {
     addList<Vector2>(table, key, field, "m", "points x,y (no spaces inside)", help, pointFrom);
 }
 
@@ -200,8 +206,8 @@ void addLevels(ParameterTable& table, const std::string& key, std::vector<SpeedL
 void addSchedule(ParameterTable& table, const std::string& key, std::vector<ScheduleEntry>& field,
                  const std::string& help) {
     addList<ScheduleEntry>(table, key, field, "s:model[:deg/s]",
-                           "entries time:model or time:ct:turn_rate, with model cv, ca, ct or unicycle,", help,
-                           scheduleEntryFrom);
+                           "entries time:model or time:ct:turn_rate, with model cv, ca, ct or unicycle,",
+                           help, scheduleEntryFrom);
 }
 
 void addId(ParameterTable& table, const std::string& key, SourceId& field, const std::string& help) {
@@ -214,7 +220,8 @@ void addId(ParameterTable& table, const std::string& key, SourceId& field, const
         [](const SourceId& id) { return std::to_string(id.value); });
 }
 
-void addNumbers(ParameterTable& table, const std::string& key, std::vector<int>& field, const std::string& help) {
+void addNumbers(ParameterTable& table, const std::string& key, std::vector<int>& field,
+                const std::string& help) {
     using List = std::vector<int>;
     addField<List>(
         table, key, field, "-", "whole numbers separated by commas, or all", help,

@@ -40,10 +40,14 @@ Vector2 anywhere(const SensorParameters& sensor, RandomStream& random) {
 Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, int step, const Pose2& pose,
           const World& world, const std::vector<Trajectory>& movers, std::uint64_t seed) {
     const Pose2 mounting{sensor.position.x(), sensor.position.y(), sensor.orientation};
+    // Most landmarks of a large world are far away: left out without an arctangent, with a margin for
+    // rounding.
+    const Vector2 eye = (pose * mounting).position();
+    const double beyond = 1.001 * sensor.max_range;
     const std::uint64_t sensor_seed = derivedSeed(seed, hashOf(sensor.label));
     const auto stream = [&](RandomPurpose purpose, std::uint32_t object) {
-        return RandomStream(sensor_seed, purpose, static_cast<std::uint32_t>(robot), static_cast<std::uint32_t>(step),
-                            object);
+        return RandomStream(sensor_seed, purpose, static_cast<std::uint32_t>(robot),
+                            static_cast<std::uint32_t>(step), object);
     };
     Matrix2 claim = Matrix2::Zero();
     claim.diagonal() << sensor.range_std * sensor.range_std, sensor.bearing_std * sensor.bearing_std;
@@ -60,6 +64,7 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
     };
     const auto look = [&](const Vector2& point, bool is_mover, SourceId id) {
         const char* kind = is_mover ? "mover" : "landmark";
+        if ((point - eye).squaredNorm() > beyond * beyond) return;
         const Vector2 z = rangeBearing<double>(pose.vector(), point, mounting);
         if (!inView(sensor, z)) return;
         const std::uint32_t object = keyOf(is_mover, id);
@@ -67,7 +72,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
         RandomStream noise = stream(RandomPurpose::range_bearing, object);
         if (noise.uniform() < sensor.outlier_probability) return add(anywhere(sensor, noise), kind, id);
         // A range has no sign: what noise takes below zero comes back as its absolute value.
-        const double range = std::abs(z.x() + noise.normal(0, sensor.true_range_std.value_or(sensor.range_std)));
+        const double range =
+            std::abs(z.x() + noise.normal(0, sensor.true_range_std.value_or(sensor.range_std)));
         const double bearing_noise = noise.normal(0, sensor.true_bearing_std.value_or(sensor.bearing_std));
         add({range, wrapAngle(z.y() + bearing_noise)}, kind, id);
     };
@@ -90,7 +96,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
                      [](const Detected& a, const Detected& b) { return a.item.bearing < b.item.bearing; });
     Scan result;
     result.reading.stamp = stamp;
-    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range, sensor.field_of_view};
+    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range,
+                             sensor.field_of_view};
     result.range_std = sensor.range_std;
     result.bearing_std = sensor.bearing_std;
     for (Detected& d : detected) {

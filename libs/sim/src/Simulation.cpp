@@ -30,9 +30,11 @@ Truth truthOf(const Scenario& scenario, int robot, const std::vector<Pose2>& pos
     Truth truth;
     truth.source = scenario.about.empty() ? "simulated" : "simulated: " + scenario.about;
     truth.landmarks = world.landmarks;
-    for (int step = 0; step <= scenario.steps; ++step) truth.robot.push_back({scenario.stampOfStep(step), poses[step]});
+    for (int step = 0; step <= scenario.steps; ++step)
+        truth.robot.push_back({scenario.stampOfStep(step), poses[step]});
     for (const Trajectory& mover : movers) {
-        if (mover.id.value != robot_id_base + robot && !mover.states.empty()) truth.targets[mover.id] = mover.states;
+        if (mover.id.value != robot_id_base + robot && !mover.states.empty())
+            truth.targets[mover.id] = mover.states;
     }
     return truth;
 }
@@ -56,17 +58,20 @@ std::vector<mrpt::obs::CObservation::Ptr> SimulatedLog::observations() const {
     return all;
 }
 
-std::vector<SimulatedLog> simulate(const Scenario& scenario, std::uint64_t seed, const SimulationProgress& progress) {
+std::vector<SimulatedLog> simulate(const Scenario& scenario, std::uint64_t seed,
+                                   const SimulationProgress& progress) {
     requirePossible(scenario);
     const World world = makeWorld(scenario.world, seed);
     std::vector<Trajectory> movers;
-    for (const MoverParameters& mover : scenario.movers) movers.push_back(simulateMover(scenario, mover, seed));
+    for (const MoverParameters& mover : scenario.movers)
+        movers.push_back(simulateMover(scenario, mover, seed));
     std::vector<RobotRun> runs;
     for (const RobotParameters& robot : scenario.robots) {
         runs.push_back(simulateRobot(scenario, robot, world, movers, seed));
     }
     if (scenario.robots.size() > 1 && scenario.robots_see_each_other) {
-        for (std::size_t i = 0; i < runs.size(); ++i) movers.push_back(asMover(scenario, scenario.robots[i], runs[i]));
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            movers.push_back(asMover(scenario, scenario.robots[i], runs[i]));
     }
     // The order of the log within a stamp.
     std::vector<SensorParameters> sensors = scenario.sensors;
@@ -81,10 +86,12 @@ std::vector<SimulatedLog> simulate(const Scenario& scenario, std::uint64_t seed,
         for (int step = 0; step <= scenario.steps; ++step) {
             for (const SensorParameters& sensor : sensors) {
                 if (!carries(sensor, log.robot) || step % sensor.every_n_steps != sensor.phase) continue;
-                log.scans.push_back(scan(scenario, sensor, log.robot, step, runs[i].poses[step], world, movers, seed));
+                log.scans.push_back(
+                    scan(scenario, sensor, log.robot, step, runs[i].poses[step], world, movers, seed));
                 addAssociations(log.scans.back(), log.truth);
             }
-            const double done = (static_cast<double>(i) + (step + 1.0) / (scenario.steps + 1.0)) / static_cast<double>(runs.size());
+            const double done = (static_cast<double>(i) + (step + 1.0) / (scenario.steps + 1.0)) /
+                                static_cast<double>(runs.size());
             if (progress && !progress(done)) return {};
         }
         log.odometry = std::move(runs[i].odometry);

@@ -26,8 +26,7 @@ LinePoint centreLine(const WorldParameters& p, double s) {
     const int edge = std::min(3, static_cast<int>(from_corner / side));
     const Vector2 corners[4] = {{-side / 2, 0}, {side / 2, 0}, {side / 2, side}, {-side / 2, side}};
     const Vector2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    return {corners[edge] + (from_corner - edge * side) * directions[edge],
-            quarterTurn() * directions[edge]};
+    return {corners[edge] + (from_corner - edge * side) * directions[edge], quarterTurn() * directions[edge]};
 }
 
 World uniformWorld(const WorldParameters& p, std::uint64_t seed) {
@@ -48,8 +47,9 @@ World uniformWorld(const WorldParameters& p, std::uint64_t seed) {
         Vector2 landmark = draw();
         for (int draws = 1; p.min_distance > 0 && crowded(landmark); ++draws) {
             if (draws == max_draws) {
-                throw ConfigError("[world] has no room for landmark " + std::to_string(i) + " at min_distance = " +
-                                  shortestText(p.min_distance) + " m from the others: use a larger box, fewer " +
+                throw ConfigError("[world] has no room for landmark " + std::to_string(i) +
+                                  " at min_distance = " + shortestText(p.min_distance) +
+                                  " m from the others: use a larger box, fewer " +
                                   "landmarks or a smaller min_distance");
             }
             landmark = draw();
@@ -66,11 +66,13 @@ World loopWorld(const WorldParameters& p, std::uint64_t seed) {
     for (int i = 0; i < p.landmarks; ++i) {
         RandomStream random(seed, RandomPurpose::world, 0, 0, static_cast<std::uint32_t>(i));
         const double along = (i / 2 + 0.5) * p.length / pairs + random.uniform(-p.side_jitter, p.side_jitter);
-        const double across = (i % 2 == 0 ? 1 : -1) * p.side_offset + random.uniform(-p.side_jitter, p.side_jitter);
+        const double across =
+            (i % 2 == 0 ? 1 : -1) * p.side_offset + random.uniform(-p.side_jitter, p.side_jitter);
         const LinePoint at = centreLine(p, std::fmod(along + p.length, p.length));
         world.landmarks[SourceId{i}] = at.point + across * at.left;
     }
-    const int points = std::max(8, 4 * static_cast<int>(std::ceil(p.length / 8)));
+    // A multiple of eight, so that a square's corners are among them.
+    const int points = 8 * static_cast<int>(std::ceil(p.length / 16));
     for (int i = 1; i <= points; ++i) {
         world.centre_line.push_back(centreLine(p, std::fmod(i * p.length / points, p.length)).point);
     }
@@ -87,7 +89,8 @@ World fileWorld(const WorldParameters& p) {
         if (!landmark.valid()) table.fail(id, "an id of 0 or more");
         if (!std::isfinite(position.x())) table.fail(x, "a finite number");
         if (!std::isfinite(position.y())) table.fail(y, "a finite number");
-        if (!world.landmarks.emplace(landmark, position).second) table.fail(id, "an id that is not there already");
+        if (!world.landmarks.emplace(landmark, position).second)
+            table.fail(id, "an id that is not there already");
     }
     return world;
 }
@@ -96,9 +99,12 @@ World fileWorld(const WorldParameters& p) {
 
 World makeWorld(const WorldParameters& parameters, std::uint64_t seed) {
     switch (parameters.kind) {
-        case WorldKind::loop: return loopWorld(parameters, seed);
-        case WorldKind::file: return fileWorld(parameters);
-        case WorldKind::uniform: break;
+        case WorldKind::loop:
+            return loopWorld(parameters, seed);
+        case WorldKind::file:
+            return fileWorld(parameters);
+        case WorldKind::uniform:
+            break;
     }
     return uniformWorld(parameters, seed);
 }

@@ -4,6 +4,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -21,6 +22,11 @@ bool startsWith(const std::string& text, const std::string& prefix) {
     return text.compare(0, prefix.size(), prefix) == 0;
 }
 
+std::string lowered(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
 /// Where every section and key of an INI text stands. MRPT's reader forgets lines and keeps the last of doubled
 /// keys, so this scan finds the places and the doubles; the values come from MRPT.
 struct Places {
@@ -30,6 +36,9 @@ struct Places {
 
 Places scan(const std::string& text, const std::string& name) {
     Places places;
+    // MRPT's reader takes no notice of case, so neither does the search for doubles.
+    std::map<std::string, int> section_lines;
+    std::map<std::pair<std::string, std::string>, int> key_lines;
     std::istringstream lines(text);
     std::string raw, section;
     bool continued = false;
@@ -43,10 +52,11 @@ Places scan(const std::string& text, const std::string& name) {
         if (line[0] == '[') {
             const auto close = line.find(']');
             const std::string rest = close == std::string::npos ? "" : trimmed(line.substr(close + 1));
-            if (close == std::string::npos || close == 1 || !(rest.empty() || startsWith(rest, "//") || rest[0] == ';'))
+            section = close == std::string::npos ? "" : trimmed(line.substr(1, close - 1));
+            if (section.empty() || !(rest.empty() || startsWith(rest, "//") || rest[0] == ';'))
                 throw ConfigError(fmt::format("{}:{}: '{}' is no section header, expected [name]", name, number, line));
-            section = line.substr(1, close - 1);
-            if (const auto [at, is_new] = places.sections.emplace(section, number); !is_new)
+            places.sections[section] = number;
+            if (const auto [at, is_new] = section_lines.emplace(lowered(section), number); !is_new)
                 throw ConfigError(fmt::format("{}:{}: section [{}] is there twice, first at line {}", name, number,
                                               section, at->second));
             continue;
@@ -59,11 +69,21 @@ Places scan(const std::string& text, const std::string& name) {
             throw ConfigError(
                 fmt::format("{}:{}: '{}' stands before any section, expected [name] first", name, number, line));
         const std::string key = trimmed(line.substr(0, equals));
-        if (const auto [at, is_new] = places.keys[section].emplace(key, number); !is_new)
+        places.keys[section][key] = number;
+        if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number);
+            !is_new)
             throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name, number,
                                           key, section, at->second));
     }
     return places;
+}
+
+/// What MRPT says is wrong, without where in MRPT and its call stack.
+std::string sentenceOf(const std::exception& error) {
+    const std::string text = error.what(), label = "Message:";
+    const auto found = text.find(label);
+    const auto begin = found == std::string::npos ? 0 : found + label.size();
+    return trimmed(text.substr(begin, text.find('\n', begin) - begin));
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {
@@ -95,7 +115,7 @@ Config Config::fromText(const std::string& text, const std::string& name) {
     try {
         values.setContent(text);
     } catch (const std::exception& error) {
-        throw ConfigError(fmt::format("{}: {}", name, error.what()));
+        throw ConfigError(fmt::format("{}: {}", name, sentenceOf(error)));
     }
 
     Config config;
@@ -118,10 +138,12 @@ void Config::set(const std::string& section, const std::string& key, const std::
 void Config::setFromAssignment(const std::string& assignment) {
     const auto equals = assignment.find('=');
     const auto dot = equals == std::string::npos ? std::string::npos : assignment.rfind('.', equals);
-    if (dot == std::string::npos || dot == 0 || dot + 1 == equals)
+    const bool has_both = dot != std::string::npos;
+    const std::string section = has_both ? trimmed(assignment.substr(0, dot)) : "";
+    const std::string key = has_both ? trimmed(assignment.substr(dot + 1, equals - dot - 1)) : "";
+    if (section.empty() || key.empty())
         throw ConfigError(fmt::format("--set {}: expected section.key=value", assignment));
-    set(trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equals - dot - 1)),
-        assignment.substr(equals + 1), "--set " + assignment);
+    set(section, key, assignment.substr(equals + 1), "--set " + assignment);
 }
 
 const Config::Section& Config::section(const std::string& name) const {

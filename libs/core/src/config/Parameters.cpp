@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -23,23 +24,47 @@ std::string trimmed(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Degrees and radians are both doubles, but not every double in radians is that of a double in degrees. Text
+/// with more digits than a double has is therefore read and turned in extended precision.
+constexpr int double_digits = 17;
+constexpr long double radians_per_degree = pi / 180.0;
+
+int significantDigits(const std::string& text) {
+    const std::string mantissa = text.substr(0, text.find_first_of("eE"));
+    const auto first = mantissa.find_first_of("123456789");
+    if (first == std::string::npos) return 0;
+    return static_cast<int>(std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(first),
+                                          mantissa.end(), [](unsigned char c) { return std::isdigit(c); }));
+}
+
+/// `text` in degrees, a number that has been checked, in radians.
+double radiansFromText(const std::string& text) {
+    if (significantDigits(text) <= double_digits) return radians(*numberFromText(text));
+    long double value = 0;
+    std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), text.data() + text.size(), value);
+    return static_cast<double>(value * radians_per_degree);
+}
+
 /// Reads one number of a parameter in file units and gives it in the program's.
 std::optional<double> readNumber(const std::string& text, const Interval& interval, bool is_degrees) {
-    const auto value = numberFromText(trimmed(text));
+    const std::string word = trimmed(text);
+    const auto value = numberFromText(word);
     if (!value || !interval.contains(*value)) return std::nullopt;
     if (std::isinf(*value) && !(std::isinf(interval.high) && *value > 0)) return std::nullopt;
-    return is_degrees ? radians(*value) : *value;
+    return is_degrees ? radiansFromText(word) : *value;
 }
 
 /// The shortest text in file units that reads back as exactly `value`.
 std::string writeNumber(double value, bool is_degrees) {
-    if (!is_degrees) return shortestText(value);
+    if (!is_degrees || !std::isfinite(value)) return shortestText(value);
     // Degrees are rounded to what a person would write, as long as the radians come back unchanged.
-    for (int digits = 6; digits < 17; ++digits) {
-        const std::string text = fmt::format("{:.{}g}", degrees(value), digits);
-        if (radians(*numberFromText(text)) == value) return text;
+    const long double in_degrees = value / radians_per_degree;
+    std::string text;
+    for (int digits = 6; digits <= std::numeric_limits<long double>::max_digits10; ++digits) {
+        text = fmt::format("{:.{}g}", in_degrees, digits);
+        if (radiansFromText(text) == value) break;
     }
-    return shortestText(degrees(value));
+    return text;
 }
 
 std::string expectedNumber(const Interval& interval, const std::string& unit, const char* what = "a number") {
@@ -120,6 +145,9 @@ ParameterTable& ParameterTable::reals(const std::string& key, std::vector<double
     return custom({key, unit, expected, help,
                    [&field, interval, deg, expected](const std::string& text) -> std::optional<std::string> {
                        std::vector<double> values;
+                       // A last comma would announce a number that is not there.
+                       if (const std::string word = trimmed(text); !word.empty() && word.back() == ',')
+                           return expected;
                        std::stringstream parts(text);
                        for (std::string part; std::getline(parts, part, ',');) {
                            const auto value = readNumber(part, interval, deg);
@@ -205,7 +233,7 @@ std::optional<double> numberFromText(const std::string& text) {
     double value = 0;
     const char* begin = text.data();
     const char* const end = begin + text.size();
-    if (begin != end && *begin == '+') ++begin;
+    if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (begin == end || error != std::errc() || stop != end || std::isnan(value)) return std::nullopt;
     return value;
@@ -252,8 +280,8 @@ std::string toMarkdown(const ParameterTable& table) {
         return words;
     };
     for (const auto& parameter : table.parameters())
-        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", parameter.key, parameter.print(), parameter.unit,
-                            cell(parameter.expected), cell(parameter.help));
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", parameter.key, cell(parameter.print()),
+                            parameter.unit, cell(parameter.expected), cell(parameter.help));
     return text;
 }
 

@@ -27,6 +27,7 @@ OdometrySplit split(const OdometryIncrement& entry, Stamp t) {
         throw std::invalid_argument("an odometry entry is split strictly inside its interval");
     const double fraction = secondsBetween(entry.t0, t) / entry.seconds();
     OdometrySplit pieces{entry, entry};
+    if (entry.entry_seconds <= 0) pieces.before.entry_seconds = pieces.after.entry_seconds = entry.seconds();
     pieces.before.t1 = t;
     pieces.after.t0 = t;
     pieces.before.increment = poseExp(fraction * poseLog(entry.increment));

@@ -64,8 +64,11 @@ MotionPrediction predictArc(const RobotMotionParameters& p, const Vector3& x, co
     G << c, -s, -0.5 * ds * s, s, c, 0.5 * ds * c, 0, 0, 1;
     Matrix3 Qu = randomWalk(p, std::abs(ds), std::abs(d.theta));
     if (odometry.covariance && p.use_log_covariance) {
+        // d u / d increment: the chord's own direction turns with half the turn.
+        const double dl = d.y * std::cos(half) - d.x * std::sin(half);
         Matrix3 to_chord = Matrix3::Identity();
         to_chord.topLeftCorner<2, 2>() = rotation(-half);
+        to_chord.topRightCorner<2, 1>() << 0.5 * dl, -0.5 * ds;
         Qu = to_chord * *odometry.covariance * to_chord.transpose();
     }
     out.Q = G * Qu * G.transpose();

@@ -69,10 +69,11 @@ Matrix6 transitionUnicycle(const Vector6& x, const Vector6& moved, double dt) {
 
     Matrix6 F = transitionCt(w, dt);
     // d/dw of dt (sinc I + versc J) v: the mean over the arc of s J Rot(w s) v.
-    const double small = std::abs(angle) < 1e-4 ? 1.0 : 0.0;
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double d_sinc = small > 0 ? -angle / 3.0 : (angle * c - s) / (angle * angle);
-    const double d_versc = small > 0 ? 0.5 - angle * angle / 8.0 : (angle * s - (1.0 - c)) / (angle * angle);
+    const bool is_small = std::abs(angle) < 1e-4;
+    const double c = std::cos(angle), s = std::sin(angle), h = std::sin(0.5 * angle);
+    const double d_sinc = is_small ? -angle / 3.0 : (angle * c - s) / (angle * angle);
+    // 1 - cos as 2 sin^2(half): the difference loses half its digits at small angles.
+    const double d_versc = is_small ? 0.5 - angle * angle / 8.0 : (angle * s - 2.0 * h * h) / (angle * angle);
     F.topRows<2>() += dt * dt * ((d_sinc * Matrix2::Identity() + d_versc * J) * v) * dw;
     F.middleRows<2>(2) += dt * (J * v_moved) * dw;
     F.bottomRows<2>() = w * J * F.middleRows<2>(2) + (J * v_moved) * dw;

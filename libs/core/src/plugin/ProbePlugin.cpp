@@ -1,6 +1,7 @@
 // Reading a module's record in a child: a module whose start-up code crashes, hangs or throws takes the child with
 // it and not the program.
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,7 +41,9 @@ std::string readRecord(const std::string& file) {
 
 [[noreturn]] void runChild(const std::string& file, int out) {
     // What start-up code prints is noise here; what matters comes through the pipe.
-    if (!std::freopen("/dev/null", "w", stderr)) _exit(1);
+    // By descriptor: closing the streams themselves would write out what the parent has not yet.
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0) _exit(1);
     alarm(probe_seconds);
     const std::string answer = readRecord(file);
     const auto written = write(out, answer.data(), answer.size());
@@ -79,8 +82,10 @@ PluginInfo probePlugin(const std::string& file) {
 
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         throw PluginError(fmt::format("{}: did not finish loading within {} s", file, probe_seconds));
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw PluginError(file + ": crashed while being loaded");
-    if (!answer.empty() && answer[0] == '!') throw PluginError(fmt::format("{}: {}", file, answer.substr(1)));
+    // Without an answer the module's start-up code has left the program, however politely.
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty())
+        throw PluginError(file + ": crashed while being loaded");
+    if (answer[0] == '!') throw PluginError(fmt::format("{}: {}", file, answer.substr(1)));
 
     PluginInfo info;
     info.file = std::filesystem::absolute(file).string();

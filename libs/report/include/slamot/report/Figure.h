@@ -1,6 +1,6 @@
 #pragma once
-// A figure as a value: panels of layers. figureSpec (FigureSpec.h) turns it into a Vega specification, writeFigure
-// (FigureWriter.h) into files.
+// A figure as a value: panels of layers. figureSpec (FigureSpec.h) turns it into a Vega specification,
+// writeFigure (FigureWriter.h) into files.
 #include <optional>
 #include <string>
 #include <vector>

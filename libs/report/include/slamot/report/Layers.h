@@ -1,7 +1,7 @@
 #pragma once
 // What a panel is made of. Coordinates are in the units of the panel's axes. A value that is not finite (on a
-// logarithmic axis also one that is not positive) is a gap in lines and bands and is left out everywhere else.
-// A layer with a label has an entry in the legend; an empty label has none.
+// logarithmic axis also one that is not positive) is a gap in lines and bands and is left out everywhere
+// else. A layer with a label has an entry in the legend; an empty label has none.
 #include <Eigen/Core>
 #include <string>
 #include <variant>
@@ -116,8 +116,9 @@ enum class ColourMap {
     diverging,  ///< a signed quantity about the middle of its range, e.g. correlation
 };
 
-/// A matrix of cells over [x_min, x_max] x [y_min, y_max]; row 0 of `values` lies at y_min, column 0 at x_min.
-/// Values outside [low, high] take the end colours; cells that are not finite stay empty. Linear axes only.
+/// A matrix of cells over [x_min, x_max] x [y_min, y_max]; row 0 of `values` lies at y_min, column 0 at
+/// x_min. Values outside [low, high] take the end colours; cells that are not finite stay empty. Linear axes
+/// only.
 struct HeatMap {
     std::string label;  ///< with the unit; stands beside the colour bar
     Eigen::MatrixXd values;

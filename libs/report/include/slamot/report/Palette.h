@@ -1,6 +1,6 @@
 #pragma once
-// Okabe and Ito's colours, told apart with the common forms of colour blindness and in grey print, and the greys
-// of everything that is not data (M. Okabe, K. Ito, Color Universal Design, 2008).
+// Okabe and Ito's colours, told apart with the common forms of colour blindness and in grey print, and the
+// greys of everything that is not data (M. Okabe, K. Ito, Color Universal Design, 2008).
 #include <cstddef>
 #include <string>
 

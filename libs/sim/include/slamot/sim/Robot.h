@@ -10,8 +10,8 @@
 namespace slamot::sim {
 
 struct RobotRun {
-    std::vector<Pose2> poses;                ///< true T_world_robot at steps 0..steps
-    std::vector<OdometryReading> odometry;   ///< what was commanded; starts at (0, 0, 0)
+    std::vector<Pose2> poses;               ///< true T_world_robot at steps 0..steps
+    std::vector<OdometryReading> odometry;  ///< what was commanded; starts at (0, 0, 0)
 };
 
 RobotRun simulateRobot(const Scenario& scenario, const RobotParameters& robot, const World& world,

@@ -1,6 +1,6 @@
 #pragma once
-// A simulated experiment as parameters: world, movers, robots, sensors. Read from an INI file or filled in by a
-// program. doc/simulator.md is its reference. SI units and radians.
+// A simulated experiment as parameters: world, movers, robots, sensors. Read from an INI file or filled in by
+// a program. doc/simulator.md is its reference. SI units and radians.
 #include <limits>
 #include <optional>
 #include <string>
@@ -37,13 +37,13 @@ enum class LoopShape { circle, square };
 struct WorldParameters {
     WorldKind kind = WorldKind::uniform;
     int landmarks = 100;
-    Box box;                               ///< uniform
-    double min_distance = 0;               ///< [m] uniform: between any two landmarks
-    LoopShape shape = LoopShape::circle;   ///< loop
-    double length = 200;                   ///< [m] loop: of the centre line
-    double side_offset = 5;                ///< [m] loop: of the landmarks from the centre line, either side
-    double side_jitter = 1;                ///< [m] loop: uniform, plus or minus, along and across
-    std::string file;                      ///< file: CSV with id,x,y; relative to the scenario's folder
+    Box box;                              ///< uniform
+    double min_distance = 0;              ///< [m] uniform: between any two landmarks
+    LoopShape shape = LoopShape::circle;  ///< loop
+    double length = 200;                  ///< [m] loop: of the centre line
+    double side_offset = 5;               ///< [m] loop: of the landmarks from the centre line, either side
+    double side_jitter = 1;               ///< [m] loop: uniform, plus or minus, along and across
+    std::string file;                     ///< file: CSV with id,x,y; relative to the scenario's folder
 };
 
 enum class MoverModel { cv, ca, ct, unicycle, schedule, waypoint };
@@ -61,28 +61,28 @@ struct MoverParameters {
     MoverModel model = MoverModel::cv;
     std::vector<ScheduleEntry> schedule;
     // Driving noise, standard deviations; one draw holds for a step (piecewise constant).
-    double cv_acceleration_std = 0.1;                 ///< [m/s^2]
-    double ca_jerk_std = 0.1;                         ///< [m/s^3]
-    double ct_acceleration_std = 0.1;                 ///< [m/s^2]
-    double ct_turn_rate = radians(10);                ///< [rad/s]
-    double unicycle_acceleration_std = 0.1;           ///< [m/s^2] along the heading
-    double unicycle_turn_rate = 0;                    ///< [rad/s] at the start of the model
-    double unicycle_turn_rate_std = radians(1);       ///< [rad/s] change per step
-    double unicycle_speed_jitter = 0;                 ///< [m/s] independent from step to step (paper 2)
-    double unicycle_turn_rate_jitter = 0;             ///< [rad/s] independent from step to step (paper 2)
+    double cv_acceleration_std = 0.1;            ///< [m/s^2]
+    double ca_jerk_std = 0.1;                    ///< [m/s^3]
+    double ct_acceleration_std = 0.1;            ///< [m/s^2]
+    double ct_turn_rate = radians(10);           ///< [rad/s]
+    double unicycle_acceleration_std = 0.1;      ///< [m/s^2] along the heading
+    double unicycle_turn_rate = 0;               ///< [rad/s] at the start of the model
+    double unicycle_turn_rate_std = radians(1);  ///< [rad/s] change per step
+    double unicycle_speed_jitter = 0;            ///< [m/s] independent from step to step (paper 2)
+    double unicycle_turn_rate_jitter = 0;        ///< [rad/s] independent from step to step (paper 2)
     // Waypoint movers.
     std::vector<Vector2> path;
-    int loops = 0;                                    ///< 0: for ever
-    double speed = 1;                                 ///< [m/s]
-    double max_turn_rate = radians(60);               ///< [rad/s]
-    double reach_distance = 1;                        ///< [m]
+    int loops = 0;                       ///< 0: for ever
+    double speed = 1;                    ///< [m/s]
+    double max_turn_rate = radians(60);  ///< [rad/s]
+    double reach_distance = 1;           ///< [m]
     // Start: given, or drawn where it is not.
-    std::optional<Vector2> position;                  ///< [m]
+    std::optional<Vector2> position;  ///< [m]
     Box start_box{-20, 20, -20, 20};
-    std::optional<Vector2> velocity;                  ///< [m/s]
-    double min_speed = 0.5, max_speed = 1.5;          ///< [m/s] drawn, with a uniform direction
-    Vector2 acceleration = Vector2::Zero();           ///< [m/s^2] ca: at the start
-    double appear = 0;                                ///< [s after the start]
+    std::optional<Vector2> velocity;          ///< [m/s]
+    double min_speed = 0.5, max_speed = 1.5;  ///< [m/s] drawn, with a uniform direction
+    Vector2 acceleration = Vector2::Zero();   ///< [m/s^2] ca: at the start
+    double appear = 0;                        ///< [s after the start]
     double vanish = std::numeric_limits<double>::infinity();
     /// A trajectory that leaves it is drawn again.
     std::optional<Box> arena;
@@ -99,25 +99,23 @@ struct SpeedLevel {
 /// Section `[robot]`, or `[robot.<number>]` where there are several. `motion` holds the true control noise.
 struct RobotParameters {
     int number = 0;
-    Vector2 start = Vector2::Zero();                  ///< [m]
-    double start_heading = 0;                         ///< [rad]
+    Vector2 start = Vector2::Zero();  ///< [m]
+    double start_heading = 0;         ///< [rad]
     RobotMotionParameters motion;
     ControllerKind controller = ControllerKind::constant;
-    double speed = 1;                                 ///< [m/s] constant, waypoints
-    double steering = 0;                              ///< [rad] constant; steered robots
-    double turn_rate = 0;                             ///< [rad/s] constant; differential and arc robots
-    double max_steering = radians(30);                ///< [rad] waypoints, pursuit
-    std::vector<Vector2> path;                        ///< waypoints; empty: the loop world's centre line
-    int loops = 1;                                    ///< waypoints; 0: for ever
-    double reach_distance = 2;                        ///< [m] waypoints
-    SourceId target{0};                               ///< pursuit
-    std::vector<SpeedLevel> levels{{3, 0.5}, {10, 3}, {20, 6}, {40, 10},
-                                   {std::numeric_limits<double>::infinity(), 15}};
+    double speed = 1;                   ///< [m/s] constant, waypoints
+    double steering = 0;                ///< [rad] constant; steered robots
+    double turn_rate = 0;               ///< [rad/s] constant; differential and arc robots
+    double max_steering = radians(30);  ///< [rad] waypoints, pursuit
+    std::vector<Vector2> path;          ///< waypoints; empty: the loop world's centre line
+    int loops = 1;                      ///< waypoints; 0: for ever
+    double reach_distance = 2;          ///< [m] waypoints
+    SourceId target{0};                 ///< pursuit
+    std::vector<SpeedLevel> levels{
+        {3, 0.5}, {10, 3}, {20, 6}, {40, 10}, {std::numeric_limits<double>::infinity(), 15}};
     int control_every_n_steps = 1;
 
-    RobotParameters() {
-        motion.model = RobotMotionModel::steered;
-    }
+    RobotParameters() { motion.model = RobotMotionModel::steered; }
 };
 
 enum class SensorRole { landmarks, movers, mixed };
@@ -127,13 +125,13 @@ enum class IdentityRule { automatic, written, hidden };
 struct SensorParameters {
     std::string label = "mixed";
     SensorRole role = SensorRole::mixed;
-    std::vector<int> robots;                          ///< numbers of the robots that carry it; empty: all
-    Vector2 position = Vector2::Zero();               ///< [m] on the robot
-    double orientation = 0;                           ///< [rad] on the robot
-    double field_of_view = pi;                        ///< [rad] full width
-    double min_range = 0, max_range = 30;             ///< [m]
-    double range_std = 0.1;                           ///< [m] claimed
-    double bearing_std = radians(1);                  ///< [rad] claimed
+    std::vector<int> robots;               ///< numbers of the robots that carry it; empty: all
+    Vector2 position = Vector2::Zero();    ///< [m] on the robot
+    double orientation = 0;                ///< [rad] on the robot
+    double field_of_view = pi;             ///< [rad] full width
+    double min_range = 0, max_range = 30;  ///< [m]
+    double range_std = 0.1;                ///< [m] claimed
+    double bearing_std = radians(1);       ///< [rad] claimed
     std::optional<double> true_range_std, true_bearing_std;  ///< where they differ from the claim
     double detection_probability = 1;
     double clutter_per_scan = 0;

@@ -14,8 +14,8 @@ namespace slamot::sim {
 /// their bearings, so that the order tells nothing.
 struct Scan {
     RangeBearingReading reading;
-    double range_std = 0, bearing_std = 0;     ///< the sensor's claim
-    std::vector<TrueAssociation> origins;      ///< one per item; `index` counts within this scan
+    double range_std = 0, bearing_std = 0;  ///< the sensor's claim
+    std::vector<TrueAssociation> origins;   ///< one per item; `index` counts within this scan
 };
 
 /// A scan of `robot` at `step` from the true `pose`. A robot does not see itself.

@@ -16,8 +16,8 @@ namespace slamot::sim {
 /// One robot's log. The values are in double precision; a rawlog keeps ranges and bearings as floats.
 struct SimulatedLog {
     int robot = 0;
-    std::vector<OdometryReading> odometry;   ///< rising stamps
-    std::vector<Scan> scans;                 ///< rising stamps; by label within a stamp
+    std::vector<OdometryReading> odometry;  ///< rising stamps
+    std::vector<Scan> scans;                ///< rising stamps; by label within a stamp
     Truth truth;
 
     /// As MRPT observations in the order of the log: odometry before scans at equal stamps.
@@ -30,8 +30,8 @@ inline constexpr const char* odometry_label = "odometry";
 /// Called with the part done, 0 to 1; returns false to stop.
 using SimulationProgress = std::function<bool(double)>;
 
-/// One log per robot, in the order of Scenario::robots; all share world and movers. Equal scenario and seed give
-/// equal logs. Empty when `progress` stopped it. Throws ConfigError for an impossible scenario.
+/// One log per robot, in the order of Scenario::robots; all share world and movers. Equal scenario and seed
+/// give equal logs. Empty when `progress` stopped it. Throws ConfigError for an impossible scenario.
 std::vector<SimulatedLog> simulate(const Scenario& scenario, std::uint64_t seed,
                                    const SimulationProgress& progress = {});
 

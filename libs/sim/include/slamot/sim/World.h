@@ -9,8 +9,8 @@ namespace slamot::sim {
 
 struct World {
     std::map<SourceId, Vector2> landmarks;
-    /// Loop worlds: points along the middle of the corridor, about 2 m apart, counter-clockwise, from the origin
-    /// back to it; the robot that starts at the origin with heading 0 starts along it. Else empty.
+    /// Loop worlds: points along the middle of the corridor, about 2 m apart, counter-clockwise, from the
+    /// origin back to it; the robot that starts at the origin with heading 0 starts along it. Else empty.
     std::vector<Vector2> centre_line;
 };
 

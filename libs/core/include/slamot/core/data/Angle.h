@@ -19,7 +19,11 @@ template <class Scalar>
 Scalar wrapAngle(const Scalar& angle) {
     using std::ceil;
     const Scalar turns = ceil((angle - Scalar(pi)) / Scalar(2.0 * pi));
-    return angle - Scalar(2.0 * pi) * turns;
+    const Scalar wrapped = angle - Scalar(2.0 * pi) * turns;
+    // Near odd multiples of pi rounding may end an ulp outside.
+    if (wrapped > Scalar(pi)) return wrapped - Scalar(2.0 * pi);
+    if (wrapped <= Scalar(-pi)) return wrapped + Scalar(2.0 * pi);
+    return wrapped;
 }
 
 /// a - b [rad], wrapped.

@@ -1,0 +1,39 @@
+#include "Progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace slamot::app {
+
+Progress::Progress(std::string what, bool quiet)
+    : what_(std::move(what)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_(begin_) {}
+
+Progress::~Progress() {
+    if (drawn_) fmt::print(stderr, "\r{:79}\r", "");
+}
+
+void Progress::show(double done) {
+    if (quiet_) return;
+    const auto now = Clock::now();
+    const auto wait = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(5000);
+    if (now - last_ < wait) return;
+    last_ = now;
+    const double elapsed = std::chrono::duration<double>(now - begin_).count();
+    const double part = std::clamp(done, 0.0, 1.0);
+    const std::string left = part > 0 ? fmt::format("{:.0f} s left", elapsed * (1 - part) / part) : "";
+    const std::string text = fmt::format("{} {:3.0f} % {:.0f} s, {}", what_, 100 * part, elapsed, left);
+    if (!terminal_) {
+        fmt::print(stderr, "{}\n", text);
+        return;
+    }
+    constexpr int width = 24;
+    const auto filled = static_cast<std::size_t>(part * width);
+    fmt::print(stderr, "\r[{:<{}}] {:<50}", std::string(filled, '#'), width, text);
+    std::fflush(stderr);
+    drawn_ = true;
+}
+
+}  // namespace slamot::app

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "Command.h"
+#include "LogGuard.h"
+#include "Progress.h"
+#include "slamot/report/FigureWriter.h"
+#include "slamot/report/Overview.h"
+#include "slamot/run/RunJob.h"
+
+namespace slamot::app {
+namespace {
+
+struct Options {
+    std::string config, log, out, truth;
+    std::vector<std::string> set;
+    std::string seed;
+    int threads = 1;
+};
+
+/// `--truth`: a folder, `none`, or by default the folder beside the log where there is one.
+std::string truthFolder(const Options& options) {
+    if (options.truth == "none") return {};
+    if (!options.truth.empty()) return options.truth;
+    const std::string beside = truthFolderOf(options.log);
+    return std::filesystem::is_directory(beside) ? beside : std::string();
+}
+
+void writeOverview(const run::RunResult& result, const Truth* truth, const Options& options) {
+    report::OverviewText text;
+    text.title = fmt::format("{} on {}", result.summary["estimator"].get<std::string>(),
+                             std::filesystem::path(options.log).filename().string());
+    try {
+        report::writeFigure(report::overviewFigure(result.record, truth, text), options.out + "/overview");
+    } catch (const report::ReportError& error) {
+        fmt::print(stderr, "slamot: no overview picture: {}\n", error.what());
+    }
+}
+
+void printSummary(const run::RunResult& result, const Options& options, const Verbosity& verbosity) {
+    const auto& counts = result.summary["counts"];
+    const auto& time = result.summary["time"];
+    fmt::print("{} on {}: {}\n", result.summary["estimator"].get<std::string>(), options.log, toText(result.status));
+    fmt::print("  {} odometry entries, {} detections in {} sets; {} landmarks, {} tracks at the end\n",
+               counts["odometry"].get<long>(), counts["detections"].get<long>(), counts["detection_sets"].get<long>(),
+               counts["landmarks"].get<long>(), counts["tracks_at_end"].get<long>());
+    fmt::print("  detections used {}, down-weighted {}, rejected {}, ignored {}\n", counts["detections_used"].get<long>(),
+               counts["detections_inflated"].get<long>(), counts["detections_rejected"].get<long>(),
+               counts["detections_ignored"].get<long>());
+    for (const auto& drop : result.summary["drops"])
+        fmt::print("  dropped: {} of '{}' ({})\n", drop["count"].get<long>(), drop["sensor"].get<std::string>(),
+                   drop["reason"].get<std::string>());
+    if (verbosity.verbose)
+        fmt::print("  {:.2f} s, of which predict {:.2f}, detect {:.2f}, update {:.2f}; peak memory {:.0f} MB\n",
+                   time["wall_s"].get<double>(), time["predict_s"].get<double>(), time["detect_s"].get<double>(),
+                   time["update_s"].get<double>(), result.summary["peak_memory_mb"].get<double>());
+    if (!result.metrics_table.empty()) fmt::print("{}", result.metrics_table);
+    fmt::print("outputs in {}\n", options.out);
+}
+
+int runJob(const Options& options, const Verbosity& verbosity) {
+    run::RunRequest request;
+    request.config = Config::fromFile(options.config);
+    for (const std::string& assignment : options.set) request.config.setFromAssignment(assignment);
+    if (!options.seed.empty()) request.config.set("run", "seed", options.seed, "--seed");
+    request.log_file = options.log;
+    request.out_folder = options.out;
+    request.threads = options.threads;
+    request.stop = &interrupted();
+
+    // The child looks at the log before anything of it is read here, and before any thread starts.
+    LogParameters log_parameters;
+    load(describe(log_parameters), request.config);
+    guardLog(options.log, log_parameters);
+
+    const std::string folder = truthFolder(options);
+    Truth truth;
+    if (!folder.empty()) {
+        truth = readTruth(folder);
+        request.truth = &truth;
+        request.truth_folder = folder;
+    }
+
+    const PluginRegistry registry = PluginRegistry::discover();
+    run::RunResult result;
+    {
+        Progress progress("running", verbosity.quiet);
+        request.progress = [&](double done) { progress.show(done); };
+        result = run::runLog(request, registry);
+    }
+    if (result.writes_figure) writeOverview(result, request.truth, options);
+    if (!verbosity.quiet) printSummary(result, options, verbosity);
+    switch (result.status) {
+        case run::RunStatus::complete: return exit_success;
+        case run::RunStatus::stopped:
+            fmt::print(stderr, "slamot: stopped; the outputs hold what was done\n");
+            return exit_failed;
+        default:
+            fmt::print(stderr, "slamot: {}: {}\n", options.log, result.end_message);
+            return exit_bad_input;
+    }
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, Action& chosen) {
+    auto* command = app.add_subcommand("run",
+                                       "The main job: a log in; robot, map and movers out.\nExample: slamot run "
+                                       "config/ekf_slamot.ini demo.rawlog -o out/ --set ekf_slamot.consistency=classic");
+    auto options = std::make_shared<Options>();
+    command->add_option("config", options->config, "Config INI file; `slamot config PLUGIN` prints one")->required();
+    command->add_option("log", options->log, "Rawlog")->required();
+    command->add_option("-o,--out", options->out, "Folder for the outputs")->required();
+    command->add_option("--truth", options->truth, "Truth folder; default LOG's stem + .truth; none: no truth");
+    command->add_option("--set", options->set, "section.key=value, instead of the file's")->allow_extra_args(false);
+    command->add_option("--seed", options->seed, "Instead of [run] seed");
+    command->add_option("--threads", options->threads, "Threads; results do not depend on it")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return runJob(*options, v); }; });
+}
+
+}  // namespace slamot::app

@@ -1,0 +1,155 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "../../libs/report/src/OverviewView.h"
+#include "slamot/report/Overview.h"
+
+namespace slamot::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+SourceId source(std::int64_t value) {
+    SourceId id;
+    id.value = value;
+    return id;
+}
+
+/// Three steps along x, 0.3 m and 0.4 m off in y at the second and third; a track that is absent at the
+/// second.
+eval::RunRecord shortRun() {
+    eval::RunRecord run;
+    const double error[] = {0, 0.3, 0.4};
+    for (int k = 0; k < 3; ++k) {
+        eval::RobotRow row;
+        row.stamp = Stamp::fromSeconds(1000 + k * 0.05);
+        row.robot.mean = {1.0 * k, error[k], 0};
+        row.robot.covariance.diagonal() << 0.01, 0.04, 0.001;
+        run.trajectory.push_back(row);
+        if (k != 1) {
+            TrackEstimate track;
+            track.id.value = 7;
+            track.source = source(3);
+            track.mean.head<2>() << k, 5;
+            run.tracks[row.stamp].push_back(track);
+        }
+    }
+    return run;
+}
+
+Truth truthOf(const eval::RunRecord& run) {
+    Truth truth;
+    for (std::size_t k = 0; k < run.trajectory.size(); ++k) {
+        truth.robot.push_back({run.trajectory[k].stamp, {1.0 * static_cast<double>(k), 0, 0}});
+        TrueTarget target;
+        target.stamp = run.trajectory[k].stamp;
+        target.position << k, 5.1;
+        truth.targets[source(3)].push_back(target);
+    }
+    truth.landmarks[source(0)] = {1, 2};
+    return truth;
+}
+
+template <class LayerType>
+const LayerType* layerNamed(const Panel& panel, const std::string& label) {
+    for (const Layer& layer : panel.layers) {
+        const LayerType* l = std::get_if<LayerType>(&layer);
+        if (l && l->label == label) {
+            return l;
+        }
+    }
+    return nullptr;
+}
+
+TEST(Overview, showsRobotTrackAndTruth) {
+    const eval::RunRecord run = shortRun();
+    const Truth truth = truthOf(run);
+    const Figure figure = overviewFigure(run, &truth);
+    // sqrt((0 + 0.09 + 0.16) / 3) = 0.2887
+    EXPECT_THAT(figure.subtitle, HasSubstr("RMSE 0.289 m"));
+    ASSERT_EQ(figure.panels.size(), 2u);
+    const Panel& map = figure.panels[0];
+    EXPECT_TRUE(map.equal_aspect);
+    ASSERT_TRUE(layerNamed<Line>(map, "Robot, estimated"));
+    EXPECT_EQ(layerNamed<Line>(map, "Robot, estimated")->points.size(), 3u);
+    ASSERT_TRUE(layerNamed<Line>(map, "Robot, true"));
+    EXPECT_EQ(layerNamed<Points>(map, "Start")->points, (Points2{{0, 0}}));
+    const Line* track = layerNamed<Line>(map, "Track 7 (object 3)");
+    ASSERT_TRUE(track);
+    ASSERT_EQ(track->points.size(), 3u);
+    EXPECT_TRUE(std::isnan(track->points[1].x()));  // absent: a gap
+}
+
+TEST(Overview, theBoundIsThreeSigmaOfTheWidestAxis) {
+    const eval::RunRecord run = shortRun();
+    const Truth truth = truthOf(run);
+    const Panel panel = overviewFigure(run, &truth).panels.at(1);
+    const Band& band = std::get<Band>(panel.layers.at(0));
+    EXPECT_NEAR(band.rows[0].high, 0.6, 1e-12);  // 3 sqrt(0.04)
+    const Line& error = std::get<Line>(panel.layers.at(1));
+    EXPECT_NEAR(error.points[2].y(), 0.4, 1e-12);
+    EXPECT_NEAR(error.points[2].x(), 0.1, 1e-12);
+}
+
+TEST(Overview, withoutTruthOnlyTheMap) {
+    const Figure figure = overviewFigure(shortRun(), nullptr, {"My run", "my words"});
+    EXPECT_EQ(figure.panels.size(), 1u);
+    EXPECT_EQ(figure.title, "My run");
+    EXPECT_EQ(figure.subtitle, "my words");
+    EXPECT_FALSE(layerNamed<Line>(figure.panels[0], "Robot, true"));
+}
+
+TEST(Overview, unknownCovarianceHasNoBound) {
+    eval::RunRecord run = shortRun();
+    for (eval::RobotRow& row : run.trajectory) {
+        row.robot.covariance.setZero();
+    }
+    const Truth truth = truthOf(run);
+    EXPECT_EQ(overviewFigure(run, &truth).panels.at(1).layers.size(), 1u);
+}
+
+TEST(Overview, anEmptyRunIsAnEmptyMap) {
+    const Figure figure = overviewFigure({}, nullptr);
+    EXPECT_LT(*figure.panels.at(0).x.min, *figure.panels.at(0).x.max);
+}
+
+TEST(OverviewView, farLandmarksDoNotShrinkTheView) {
+    Points2 landmarks;
+    for (int i = 0; i < 98; ++i) {
+        landmarks.emplace_back(0.1 * i, 5);  // 0 to 9.7 m
+    }
+    landmarks.emplace_back(11, 0);  // of the furthest 2 % too, but near enough to stay
+    landmarks.emplace_back(0, -1e6);
+    const MapView view = mapView({{0, 0}, {10, 10}}, landmarks);
+    EXPECT_EQ(view.outside, 1u);
+    EXPECT_EQ(view.low, Eigen::Vector2d(0, 0));
+    EXPECT_EQ(view.high, Eigen::Vector2d(11, 10));
+}
+
+TEST(OverviewView, ordinaryLandmarksAllStayInView) {
+    Points2 landmarks;
+    for (int i = 0; i < 100; ++i) {
+        landmarks.emplace_back(0.1 * i, 12 - 0.1 * i);
+    }
+    const MapView view = mapView({{0, 0}, {10, 10}}, landmarks);
+    EXPECT_EQ(view.outside, 0u);
+    EXPECT_NEAR(view.high.y(), 12, 1e-12);
+}
+
+TEST(OverviewView, whatDefinesTheViewLiesWithinIt) {
+    // 0.1 and 0.7 have no exact middle: a view made from the middle and half the size could miss its own
+    // corners.
+    for (int i = 1; i < 50; ++i) {
+        EXPECT_EQ(mapView({}, {{0.1 * i, -0.3 * i}, {70.7 * i, 90.1 * i}}).outside, 0u) << i;
+    }
+}
+
+TEST(OverviewView, aStandingRobotHasRoomAroundIt) {
+    const MapView view = mapView({{2, 3}, {2, 3}}, {});
+    EXPECT_EQ(view.low, Eigen::Vector2d(1.5, 2.5));
+    EXPECT_EQ(view.high, Eigen::Vector2d(2.5, 3.5));
+}
+
+}  // namespace
+}  // namespace slamot::report
