@@ -1,0 +1,3 @@
+#include "conformance/Conformance.h"
+
+SLAMOT_CONFORMANCE_SUITE(dead_reckoning, slamot::conformance::Options{})
