@@ -1,7 +1,7 @@
 #pragma once
 // One line holds an estimator plugin to all laws of Laws.h:
 //
-//   SLAMOT_CONFORMANCE_SUITE(my_estimator, slamot::conformance::Options{})
+//   SLAMOT_CONFORMANCE_SUITE(my_estimator, slamot::conformance::Options{});
 #include <gtest/gtest.h>
 
 #include "conformance/Subject.h"

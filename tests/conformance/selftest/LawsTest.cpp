@@ -170,4 +170,4 @@ TEST(LawsTest, SampledLawsHoldForAnHonestSampler) {
 }  // namespace
 }  // namespace slamot::conformance
 
-SLAMOT_CONFORMANCE_SUITE(honest, slamot::conformance::suspect(slamot::conformance::Flaw::none))
+SLAMOT_CONFORMANCE_SUITE(honest, slamot::conformance::suspect(slamot::conformance::Flaw::none));
