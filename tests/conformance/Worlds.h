@@ -10,7 +10,7 @@ sim::Scenario roundTrip();
 /// The same without any noise in the world; sensor and odometry go on claiming theirs.
 sim::Scenario noiseFree();
 
-/// The same with bearing noise of 3 deg, where the curvature of polar measurements begins to matter.
+/// The same with bearing noise of 6 deg, where the curvature of polar measurements matters.
 sim::Scenario roughBearings();
 
 /// Landmarks straight behind a robot that heads along -x: bearings and heading both lie about +-pi.

@@ -203,7 +203,7 @@ Verdict noiseFreeConverges(const Options& options) {
 
 Verdict neesInBand(const Options& options) {
     return guarded([&]() -> Verdict {
-        constexpr int runs = 20;
+        constexpr int runs = 40;
         const std::vector<std::size_t> checked_steps = {40, 80, 120, 160, 200};
         std::vector<double> sums(checked_steps.size(), 0), dimensions(checked_steps.size(), 0);
         for (int run = 0; run < runs; ++run) {
@@ -231,7 +231,7 @@ Verdict neesInBand(const Options& options) {
             inside = inside && band.contains(mean);
             values += fmt::format(" step {}: {:.2f} in [{:.2f}, {:.2f}];", checked_steps[k], mean, band.low, band.high);
         }
-        return inside ? Verdict() : "mean NEES of the robot over 20 runs leaves its band:" + values;
+        return inside ? Verdict() : "mean NEES of the robot over 40 runs leaves its band:" + values;
     });
 }
 

@@ -53,7 +53,7 @@ sim::Scenario noiseFree() {
 
 sim::Scenario roughBearings() {
     sim::Scenario scenario = roundTrip();
-    for (sim::SensorParameters& sensor : scenario.sensors) sensor.bearing_std = radians(3);
+    for (sim::SensorParameters& sensor : scenario.sensors) sensor.bearing_std = radians(6);
     return scenario;
 }
 
