@@ -16,7 +16,7 @@ int listPlugins(const Verbosity& verbosity) {
         if (verbosity.verbose) fmt::print("{:16} {} in {}\n", "", plugin.class_name, plugin.file);
     }
     for (const RefusedPlugin& refused : registry.refused())
-        fmt::print(stderr, "refused: {}: {}\n", refused.file, refused.reason);
+        fmt::print(stderr, "refused: {}\n", refused.reason);
     if (!registry.plugins().empty()) return exit_success;
     std::string folders;
     for (const std::string& folder : PluginRegistry::defaultFolders()) folders += "\n  " + folder;
