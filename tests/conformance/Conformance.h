@@ -16,10 +16,8 @@ Options named(const std::string& suite, Options options);
 }  // namespace slamot::conformance
 
 /// `SUITE`: the plugin's name, or any name when the options name the plugin. Further arguments: Options.
-#define SLAMOT_CONFORMANCE_SUITE(SUITE, ...)                                                            \
-    using slamot::conformance::Conformance;                                                             \
-    INSTANTIATE_TEST_SUITE_P(SUITE, Conformance,                                                        \
-                             testing::Values(slamot::conformance::named(#SUITE, __VA_ARGS__)),          \
-                             [](const testing::TestParamInfo<slamot::conformance::Options>& info) {     \
-                                 return info.param.plugin;                                              \
-                             })
+#define SLAMOT_CONFORMANCE_SUITE(SUITE, ...)                                                  \
+    using slamot::conformance::Conformance;                                                   \
+    INSTANTIATE_TEST_SUITE_P(                                                                 \
+        SUITE, Conformance, testing::Values(slamot::conformance::named(#SUITE, __VA_ARGS__)), \
+        [](const testing::TestParamInfo<slamot::conformance::Options>& info) { return info.param.plugin; })

@@ -22,7 +22,8 @@ Verdict timeGoingBackIsRefused(const Options& options);
 /// What the cheap and the expensive queries say fits together.
 Verdict queriesAgree(const Options& options);
 
-/// Printing, parsing and loading give back what was there; nonsense is refused; sections carry the plugin's name.
+/// Printing, parsing and loading give back what was there; nonsense is refused; sections carry the plugin's
+/// name.
 Verdict parametersRoundTrip(const Options& options);
 /// A misspelt key is a ConfigError that names it.
 Verdict unknownKeyIsRefused(const Options& options);

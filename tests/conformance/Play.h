@@ -28,7 +28,8 @@ struct Play {
 /// Simulates the scenario's only robot. The start is the true one, with no uncertainty.
 Play playOf(const sim::Scenario& scenario, std::uint64_t seed);
 
-/// The same run in a world moved by T_new_old. Odometry and detections are the robot's own, so only the start moves.
+/// The same run in a world moved by T_new_old. Odometry and detections are the robot's own, so only the start
+/// moves.
 Play movedBy(const Pose2& T, Play play);
 
 /// Covariance of [x y theta] seen from axes turned by `angle`.
@@ -44,7 +45,8 @@ std::shared_ptr<Estimator> subjectFor(const Options& options, const Play& play);
 using Watch = std::function<void(const Estimator&, const UpdateReport*)>;
 
 /// Steps [first, last) to an estimator that stands where they begin.
-void playSteps(Estimator& estimator, const Play& play, std::size_t first, std::size_t last, const Watch& watch = {});
+void playSteps(Estimator& estimator, const Play& play, std::size_t first, std::size_t last,
+               const Watch& watch = {});
 /// Starts and plays all.
 void playAll(Estimator& estimator, const Play& play, const Watch& watch = {});
 

@@ -17,10 +17,11 @@ struct Options {
     Kind kind = Kind::deterministic;
     /// Plugin name; empty: the suite's.
     std::string plugin;
-    /// INI text of the plugin's own sections, where the defaults are not what the law worlds need. `[motion]` is
-    /// set by the worlds.
+    /// INI text of the plugin's own sections, where the defaults are not what the law worlds need. `[motion]`
+    /// is set by the worlds.
     std::string config;
-    /// Largest errors at the end of a noise-free run [m], [rad]. Not zero: a filter still weighs what it sees.
+    /// Largest errors at the end of a noise-free run [m], [rad]. Not zero: a filter still weighs what it
+    /// sees.
     double noise_free_position = 0.05, noise_free_heading = 0.005;
     /// Why the NEES law does not hold for this method. Must stand, word for word, in doc/plugins/<plugin>.md.
     std::string nees_exemption;

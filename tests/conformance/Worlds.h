@@ -19,8 +19,8 @@ sim::Scenario behind();
 /// Fifty movers that come and go.
 sim::Scenario crowd();
 
-/// `play` with what real logs bring: the same object twice in a batch, detections without identity or kind, one
-/// right at the sensor, one with an enormous id, and one that is far off.
+/// `play` with what real logs bring: the same object twice in a batch, detections without identity or kind,
+/// one right at the sensor, one with an enormous id, and one that is far off.
 Play withNuisances(Play play);
 
 }  // namespace slamot::conformance

@@ -181,6 +181,13 @@ class TreeTest(unittest.TestCase):
                     faults.append(f"{relative(page)} links to {target}, which is not there")
         self.assert_none(faults)
 
+    def test_pages_named_in_comments_exist(self):
+        self.assert_none([f"{relative(file)} names {page}, which is not there"
+                          for file in tracked()
+                          if file.suffix in SOURCE_ENDINGS | {".sh", ".py", ".ini", ".cmake", ".txt", ".bash"}
+                          for page in re.findall(r"\bdoc/[\w/]+\.md\b", file.read_text(errors="replace"))
+                          if not (ROOT / page).exists()])
+
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)

@@ -1,6 +1,5 @@
-// The laws themselves: an honest estimator keeps them all, and each flaw breaks the law that is there to find it.
-#include "conformance/Laws.h"
-
+// The laws themselves: an honest estimator keeps them all, and each flaw breaks the law that is there to find
+// it.
 #include <gmock/gmock.h>
 #include <slamot/core/models/RobotMotion.h>
 #include <slamot/core/random/RandomStream.h>
@@ -8,6 +7,7 @@
 #include <cmath>
 
 #include "conformance/Conformance.h"
+#include "conformance/Laws.h"
 
 namespace slamot::conformance {
 
@@ -35,12 +35,12 @@ enum class Flaw {
 class Suspect : public Estimator {
     DEFINE_MRPT_OBJECT(Suspect, slamot::conformance)
 
-   public:
+  public:
     Suspect() = default;
     Suspect(Flaw flaw, double sampling) : flaw_(flaw), sampling_(sampling) {}
     std::string name() const override { return "suspect"; }
 
-   protected:
+  protected:
     std::vector<ParameterTable> onParameters() override {
         ParameterTable own(flaw_ == Flaw::foreign_section ? "ekf_slamot" : "suspect", "A test.");
         own.real("scale", scale_, "-", Interval::positive(), "Factor on the variance.");
@@ -64,7 +64,9 @@ class Suspect : public Estimator {
     }
     void onPredict(const OdometryIncrement& odometry) override {
         const MotionPrediction moved = predictMotion(motion_, pose_.mean.vector(), odometry);
-        const Matrix3 Q = moved.Q * (flaw_ == Flaw::over_confident ? 0.25 : flaw_ == Flaw::too_humble ? 4.0 : scale_);
+        const Matrix3 Q = moved.Q * (flaw_ == Flaw::over_confident ? 0.25
+                                     : flaw_ == Flaw::too_humble   ? 4.0
+                                                                   : scale_);
         Vector3 mean = moved.pose;
         ++step_;
         if (sampling_ > 0) {
@@ -99,7 +101,7 @@ class Suspect : public Estimator {
     PoseGaussian onRobot() const override { return pose_; }
     std::int64_t onLandmarkCount() const override { return flaw_ == Flaw::wrong_landmark_count ? 1 : 0; }
 
-   private:
+  private:
     Flaw flaw_ = Flaw::none;
     double sampling_ = 0, scale_ = 1;
     RobotMotionParameters motion_;
@@ -125,8 +127,8 @@ Options suspect(Flaw flaw, double sampling = 0) {
 
 Options shaken() {
     Options options = suspect(Flaw::none, 0.1);
-    // Shaking adds (0.01 m)^2 and (0.001 rad)^2 a step to odometry noise of (0.01 m)^2 and (0.0035 rad)^2 a step,
-    // which the covariance does not count.
+    // Shaking adds (0.01 m)^2 and (0.001 rad)^2 a step to odometry noise of (0.01 m)^2 and (0.0035 rad)^2 a
+    // step, which the covariance does not count.
     options.nees_exemption = "shaken more than it says";
     return options;
 }
@@ -144,7 +146,8 @@ TEST(LawsTest, EachFlawBreaksItsLaw) {
     EXPECT_NE(unknownKeyIsRefused(suspect(Flaw::ignores_unknown_keys)), "");
     EXPECT_NE(worldMayBeMoved(suspect(Flaw::tied_to_the_world)), "");
     EXPECT_NE(bearingsAcrossPi(suspect(Flaw::unwrapped_residual)), "");
-    EXPECT_NE(noiseFreeConverges(suspect(Flaw::drifts)), "");  // 200 steps of 2 mm on 5 rad of a circle: 2 (0.4 m / 5) sin(2.5) = 0.096 m
+    EXPECT_NE(noiseFreeConverges(suspect(Flaw::drifts)),
+              "");  // 200 steps of 2 mm on 5 rad of a circle: 2 (0.4 m / 5) sin(2.5) = 0.096 m
     EXPECT_NE(neesInBand(suspect(Flaw::over_confident)), "");
     EXPECT_NE(neesInBand(suspect(Flaw::too_humble)), "");
 }

@@ -44,8 +44,10 @@ Options named(const std::string& suite, Options options) {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Conformance);
 
-#define SLAMOT_LAW(NAME, LAW) \
-    TEST_P(Conformance, NAME) { EXPECT_EQ(LAW(GetParam()), Verdict()); }
+#define SLAMOT_LAW(NAME, LAW)                  \
+    TEST_P(Conformance, NAME) {                \
+        EXPECT_EQ(LAW(GetParam()), Verdict()); \
+    }
 
 SLAMOT_LAW(SameBitsForAnyThreads, sameBitsForAnyThreads)
 SLAMOT_LAW(ResetEqualsNew, resetEqualsNew)

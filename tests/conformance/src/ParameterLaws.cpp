@@ -14,11 +14,13 @@ bool belongs(const std::string& section, const std::string& plugin) {
 
 Verdict checkParameter(const std::string& section, const Parameter& parameter) {
     const std::string name = fmt::format("[{}] {}", section, parameter.key), before = parameter.print();
-    if (parameter.help.empty() || parameter.expected.empty()) return name + " lacks its help or what is expected";
+    if (parameter.help.empty() || parameter.expected.empty())
+        return name + " lacks its help or what is expected";
     if (const auto reason = parameter.parse(before))
         return fmt::format("{} prints '{}' and refuses it: expected {}", name, before, *reason);
     if (parameter.print() != before)
-        return fmt::format("{} printed '{}', parsed it, and now prints '{}'", name, before, parameter.print());
+        return fmt::format("{} printed '{}', parsed it, and now prints '{}'", name, before,
+                           parameter.print());
     const bool takes_any_text = parameter.expected == "text";
     if (!takes_any_text && !parameter.parse(nonsense)) return fmt::format("{} takes '{}'", name, nonsense);
     if (!takes_any_text && parameter.print() != before) return name + " changed though it refused its value";
@@ -34,15 +36,18 @@ Verdict parametersRoundTrip(const Options& options) {
         std::string text;
         for (const ParameterTable& table : first->parameterTables()) {
             if (!belongs(table.section(), first->name()))
-                return fmt::format("section [{}] is neither [{}] nor a part of it", table.section(), first->name());
+                return fmt::format("section [{}] is neither [{}] nor a part of it", table.section(),
+                                   first->name());
             for (const Parameter& parameter : table.parameters())
-                if (Verdict verdict = checkParameter(table.section(), parameter); !verdict.empty()) return verdict;
+                if (Verdict verdict = checkParameter(table.section(), parameter); !verdict.empty())
+                    return verdict;
             text += toIni(table) + "\n";
         }
         second->initialize(Config::fromText(text, "printed parameters"));
         std::string again;
         for (const ParameterTable& table : second->parameterTables()) again += toIni(table) + "\n";
-        if (again != text) return "parameters printed, loaded into a new object and printed again differ:\n" + again;
+        if (again != text)
+            return "parameters printed, loaded into a new object and printed again differ:\n" + again;
         return {};
     });
 }

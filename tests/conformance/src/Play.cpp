@@ -28,7 +28,7 @@ void append(const RangeBearingReading& reading, RangeBearingSet& set) {
 }
 
 class Bits {
-   public:
+  public:
     template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
     void add(Number value) {
         text_.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -41,7 +41,7 @@ class Bits {
     void add(const std::string& text) { text_ += text; }
     std::string take() { return std::move(text_); }
 
-   private:
+  private:
     std::string text_;
 };
 
@@ -112,7 +112,8 @@ std::shared_ptr<Estimator> subjectFor(const Options& options, const Play& play) 
     return estimator;
 }
 
-void playSteps(Estimator& estimator, const Play& play, std::size_t first, std::size_t last, const Watch& watch) {
+void playSteps(Estimator& estimator, const Play& play, std::size_t first, std::size_t last,
+               const Watch& watch) {
     for (std::size_t i = first; i < last; ++i) {
         const PlayStep& step = play.steps[i];
         if (step.odometry) {
@@ -150,7 +151,8 @@ std::string bits(const Estimate& estimate) {
 
 std::string bitsOfRun(Estimator& estimator, const Play& play) {
     Bits out;
-    playAll(estimator, play, [&](const Estimator& now, const UpdateReport*) { out.add(bits(now.estimate())); });
+    playAll(estimator, play,
+            [&](const Estimator& now, const UpdateReport*) { out.add(bits(now.estimate())); });
     for (const LandmarkEstimate& landmark : estimator.landmarks()) {
         out.add(landmark.id.value);
         out.add(landmark.source.value);

@@ -30,7 +30,8 @@ Verdict definite(const Eigen::MatrixXd& P, const std::string& what) {
 Verdict definite(const Estimator& estimator) {
     Verdict verdict = definite(estimator.robot().covariance, "the robot's covariance");
     for (const TrackEstimate& track : estimator.tracks())
-        if (verdict.empty()) verdict = definite(track.covariance, fmt::format("covariance of track {}", track.id.value));
+        if (verdict.empty())
+            verdict = definite(track.covariance, fmt::format("covariance of track {}", track.id.value));
     if (verdict.empty()) verdict = definite(estimator.jointCovariance().matrix, "the joint covariance");
     return verdict.empty() ? verdict : fmt::format("{} at {}", verdict, toText(estimator.time()));
 }
@@ -40,7 +41,9 @@ Verdict agree(const Estimator& estimator) {
     const auto tracks = estimator.tracks();
     const auto landmarks = estimator.landmarks();
     const JointCovariance joint = estimator.jointCovariance();
-    const auto at = [&](const std::string& what) { return fmt::format("{} at {}", what, toText(estimator.time())); };
+    const auto at = [&](const std::string& what) {
+        return fmt::format("{} at {}", what, toText(estimator.time()));
+    };
 
     if (estimate.stamp != estimator.time()) return at("the estimate's stamp is not the present time");
     if (estimate.landmark_count != static_cast<std::int64_t>(landmarks.size()))
@@ -55,14 +58,16 @@ Verdict agree(const Estimator& estimator) {
     }
     std::set<LandmarkId> landmark_ids;
     for (const LandmarkEstimate& landmark : landmarks) {
-        if (!landmark.id.valid() || !landmark_ids.insert(landmark.id).second) return at("landmark ids are not unique");
+        if (!landmark.id.valid() || !landmark_ids.insert(landmark.id).second)
+            return at("landmark ids are not unique");
         const auto some = estimator.landmarks(std::vector<LandmarkId>{landmark.id});
         if (some.size() != 1 || some[0].id != landmark.id || some[0].mean != landmark.mean)
             return at("landmarks(ids) and landmarks() differ");
     }
     if (joint.matrix.size() == 0) return {};
     const auto size = static_cast<Eigen::Index>(3 + 6 * joint.tracks.size() + 2 * joint.landmarks.size());
-    if (joint.matrix.rows() != size || joint.matrix.cols() != size) return at("the joint covariance has a wrong size");
+    if (joint.matrix.rows() != size || joint.matrix.cols() != size)
+        return at("the joint covariance has a wrong size");
     const Matrix3 robot = estimator.robot().covariance;
     const double scale = std::max(1e-300, robot.cwiseAbs().maxCoeff());
     if ((joint.matrix.topLeftCorner<3, 3>() - robot).cwiseAbs().maxCoeff() > symmetry_tolerance * scale)
@@ -90,7 +95,8 @@ Verdict sameBitsForAnyThreads(const Options& options) {
             play.start.threads = threads;
             const std::string now = bitsOfRun(*subjectFor(options, play), play);
             if (first.empty()) first = now;
-            if (now != first) return fmt::format("{} threads give other bits than the first run with 1", threads);
+            if (now != first)
+                return fmt::format("{} threads give other bits than the first run with 1", threads);
         }
         return {};
     });
@@ -107,10 +113,12 @@ Verdict resetEqualsNew(const Options& options) {
         const std::string reset = bits(used->estimate());
         const auto started = subjectFor(options, play);
         started->start(play.start);
-        if (reset != bits(started->estimate())) return "the estimate after reset differs from that of a new object";
+        if (reset != bits(started->estimate()))
+            return "the estimate after reset differs from that of a new object";
         playSteps(*used, play, 0, play.steps.size());
         playAll(*started, play);
-        if (bits(used->estimate()) != bits(started->estimate())) return "a run after reset ends otherwise than a first one";
+        if (bits(used->estimate()) != bits(started->estimate()))
+            return "a run after reset ends otherwise than a first one";
         return {};
     });
 }
@@ -137,8 +145,10 @@ Verdict emptySetIsAccepted(const Options& options) {
             const Estimate after = estimator->estimate();
             if (!report.innovations.empty()) return "an empty set has innovations";
             // A set filter may lower existence when nothing is seen, but nothing has moved.
-            if (before.robot.mean.vector() != after.robot.mean.vector()) return "an empty set moves the robot";
-            if (before.landmark_count != after.landmark_count) return "an empty set changes the number of landmarks";
+            if (before.robot.mean.vector() != after.robot.mean.vector())
+                return "an empty set moves the robot";
+            if (before.landmark_count != after.landmark_count)
+                return "an empty set changes the number of landmarks";
         }
         return {};
     });
@@ -186,16 +196,17 @@ Verdict crowdIsSurvived(const Options& options) {
     return guarded([&] {
         const Play play = withNuisances(playOf(crowd(), seed));
         int step = 0;
-        Verdict verdict = firstOver(*subjectFor(options, play), play,
-                                    [&](const Estimator& now, const UpdateReport* report) -> Verdict {
-            if (!report) return {};
-            const auto& set = play.steps[step].detections->rangeBearing();
-            if (report->innovations.size() != set.detections.size())
-                return fmt::format("{} detections got {} innovations at {}", set.detections.size(),
-                                   report->innovations.size(), toText(now.time()));
-            // Whole covariances of a crowd are large: every tenth is looked at.
-            return step++ % 10 == 0 ? definite(now) + agree(now) : Verdict();
-        });
+        Verdict verdict = firstOver(
+            *subjectFor(options, play), play,
+            [&](const Estimator& now, const UpdateReport* report) -> Verdict {
+                if (!report) return {};
+                const auto& set = play.steps[step].detections->rangeBearing();
+                if (report->innovations.size() != set.detections.size())
+                    return fmt::format("{} detections got {} innovations at {}", set.detections.size(),
+                                       report->innovations.size(), toText(now.time()));
+                // Whole covariances of a crowd are large: every tenth is looked at.
+                return step++ % 10 == 0 ? definite(now) + agree(now) : Verdict();
+            });
         return verdict;
     });
 }

@@ -54,12 +54,13 @@ Play uncertainStart(std::uint64_t seed) {
 }
 
 class Compared {
-   public:
+  public:
     explicit Compared(const Pose2& T) : T_(T), R_(rotation(T.theta)) {}
 
     Verdict operator()(const Estimator& moved, const Estimator& original) {
         const PoseGaussian robot = moved.robot(), reference = original.robot();
-        same(errorOf(robot.mean, T_ * reference.mean), Vector3::Zero(), "the robot's pose", robot.mean.position().norm());
+        same(errorOf(robot.mean, T_ * reference.mean), Vector3::Zero(), "the robot's pose",
+             robot.mean.position().norm());
         same(robot.covariance, turned(reference.covariance, T_.theta), "the robot's covariance");
         const auto tracks = moved.tracks(), track_references = original.tracks();
         if (tracks.size() != track_references.size()) return "the number of tracks differs";
@@ -72,7 +73,8 @@ class Compared {
             }
             mean.head<2>() += T_.position();
             same(tracks[i].mean, mean, "a track's state");
-            same(tracks[i].covariance, R * track_references[i].covariance * R.transpose(), "a track's covariance");
+            same(tracks[i].covariance, R * track_references[i].covariance * R.transpose(),
+                 "a track's covariance");
         }
         const auto landmarks = moved.landmarks(), landmark_references = original.landmarks();
         if (landmarks.size() != landmark_references.size()) return "the number of landmarks differs";
@@ -84,7 +86,7 @@ class Compared {
         return first_;
     }
 
-   private:
+  private:
     /// Coordinates of about 100 m carry rounding of 1e-14; a run amplifies it, but not by five orders.
     static constexpr double tolerance = 1e-9;
 
@@ -132,8 +134,9 @@ Verdict movedOnAverage(const Options& options) {
             const double off = std::abs(moved.mean(i) - original.mean(i));
             const double deviation = std::sqrt(moved.variance_of_mean(i) + original.variance_of_mean(i));
             if (!(off <= limit * deviation + 1e-9))
-                return fmt::format("moved by {} deg, coordinate {} of the mean pose is off by {}, {} deviations",
-                                   degrees(T.theta), i, off, off / deviation);
+                return fmt::format(
+                    "moved by {} deg, coordinate {} of the mean pose is off by {}, {} deviations",
+                    degrees(T.theta), i, off, off / deviation);
         }
     }
     return {};
@@ -168,7 +171,8 @@ Verdict bearingsAcrossPi(const Options& options) {
             }
         });
         if (!first.empty()) return first;
-        if (odd * 20 > innovations) return fmt::format("{} of {} innovations counted as outliers", odd, innovations);
+        if (odd * 20 > innovations)
+            return fmt::format("{} of {} innovations counted as outliers", odd, innovations);
         // 5 m at 0.5 m/s with steering noise of 1 deg per 0.1 s: dead reckoning alone turns by
         // sqrt(100) * 0.05 m / 1 m * 1 deg = 0.5 deg, and strays by centimetres. Ten times that is a fault.
         const Vector3 error = errorOf(estimator->robot().mean, play.truth.robot.back().pose);
@@ -215,8 +219,8 @@ Verdict neesInBand(const Options& options) {
                 playSteps(*estimator, play, done, checked_steps[k] + 1);
                 done = checked_steps[k] + 1;
                 const PoseGaussian robot = estimator->robot();
-                const eval::SquaredError nees =
-                    eval::nees(errorOf(robot.mean, play.truth.robot[checked_steps[k]].pose), robot.covariance);
+                const eval::SquaredError nees = eval::nees(
+                    errorOf(robot.mean, play.truth.robot[checked_steps[k]].pose), robot.covariance);
                 sums[k] += nees.value;
                 dimensions[k] += nees.dimension;
             }
@@ -224,12 +228,14 @@ Verdict neesInBand(const Options& options) {
         std::string values;
         bool inside = true;
         for (std::size_t k = 0; k < checked_steps.size(); ++k) {
-            // Runs are independent, so the sum is chi-square; steps of a run are not, so each has its own band.
+            // Runs are independent, so the sum is chi-square; steps of a run are not, so each has its own
+            // band.
             const double part = false_alarm_rate / static_cast<double>(checked_steps.size());
             const eval::Band band = eval::chiSquareBand(1 - part, dimensions[k], runs);
             const double mean = sums[k] / runs;
             inside = inside && band.contains(mean);
-            values += fmt::format(" step {}: {:.2f} in [{:.2f}, {:.2f}];", checked_steps[k], mean, band.low, band.high);
+            values += fmt::format(" step {}: {:.2f} in [{:.2f}, {:.2f}];", checked_steps[k], mean, band.low,
+                                  band.high);
         }
         return inside ? Verdict() : "mean NEES of the robot over 40 runs leaves its band:" + values;
     });

@@ -47,7 +47,8 @@ sim::Scenario noiseFree() {
     sim::Scenario scenario = roundTrip();
     scenario.robots[0].motion.speed_std = scenario.robots[0].motion.steering_std = 0;
     for (sim::MoverParameters& mover : scenario.movers) mover.cv_acceleration_std = 0;
-    for (sim::SensorParameters& sensor : scenario.sensors) sensor.true_range_std = sensor.true_bearing_std = 0;
+    for (sim::SensorParameters& sensor : scenario.sensors)
+        sensor.true_range_std = sensor.true_bearing_std = 0;
     return scenario;
 }
 

@@ -31,8 +31,8 @@ TEST(DeadReckoningTest, OneStepByHand) {
     // 0.2 m along the old heading, +y; then a turn of 0.05.
     const PoseGaussian robot = estimator->robot();
     EXPECT_TRUE(test::near(robot.mean.vector(), Vector3(1, 2.2, pi / 2 + 0.05), 1e-15));
-    // dx/dtheta = -0.2, so x gets 0.2^2 * 0.04 = 0.0016 and its covariance with theta is -0.2 * 0.04 = -0.008.
-    // Noise, doubled: y gets 2 (0.1 m/s * 0.1 s)^2 = 2e-4, theta 2 (10 deg/s * 0.1 s)^2.
+    // dx/dtheta = -0.2, so x gets 0.2^2 * 0.04 = 0.0016 and its covariance with theta is -0.2 * 0.04 =
+    // -0.008. Noise, doubled: y gets 2 (0.1 m/s * 0.1 s)^2 = 2e-4, theta 2 (10 deg/s * 0.1 s)^2.
     Matrix3 P = Matrix3::Zero();
     P(0, 0) = 0.0016;
     P(0, 2) = P(2, 0) = -0.008;

@@ -41,7 +41,8 @@ TEST(EkfSlamotTest, ClassicFirstSightAndUpdateByHand) {
     // Again, 0.4 m farther. The relative position has variance diag(0.5, 0.4):
     //   range:   S = 0.5 + 0.5 = 1,         gain on l_x = 0.5,             P_xx = 1.5 - 0.5^2 / 1 = 1.25
     //   bearing: S = 0.4 / 2^2 + 0.1 = 0.2, P h^t on l_y = 0.4 / 2 = 0.2,  P_yy = 1.4 - 0.2^2 / 0.2 = 1.2
-    // so the landmark moves by 0.2 m. A robot of known heading learns nothing from a landmark that only it has seen.
+    // so the landmark moves by 0.2 m. A robot of known heading learns nothing from a landmark that only it
+    // has seen.
     const Innovation innovation = estimator->update(ahead(2.4)).innovations.at(0);
     EXPECT_EQ(innovation.outcome, Outcome::updated);
     EXPECT_TRUE(test::near(innovation.residual, Vector2(0.4, 0), 1e-14));
@@ -62,8 +63,8 @@ TEST(EkfSlamotTest, InvariantFirstSightByHand) {
     EXPECT_TRUE(test::near(landmark.mean, Vector2(1.9, 0), 1e-15));
     EXPECT_TRUE(test::near(landmark.covariance, Matrix2(Vector2(0.52, 0.361).asDiagonal()), 1e-15));
 
-    // The next look: P_lat = 0.361 lowers the innovation by 0.361 / (2 * 1.9) = 0.095 and raises its variance of
-    // 0.52 + 0.5 by (0.361 / 1.9)^2 / 2 = 0.19^2 / 2 = 0.01805.
+    // The next look: P_lat = 0.361 lowers the innovation by 0.361 / (2 * 1.9) = 0.095 and raises its variance
+    // of 0.52 + 0.5 by (0.361 / 1.9)^2 / 2 = 0.19^2 / 2 = 0.01805.
     const Innovation innovation = estimator->update(ahead(2)).innovations.at(0);
     EXPECT_NEAR(innovation.residual.x(), 0.1 - 0.095, 1e-14);
     EXPECT_NEAR(innovation.covariance(0, 0), 1.02 + 0.01805, 1e-14);
