@@ -14,3 +14,7 @@ install(FILES ${PROJECT_BINARY_DIR}/slamotConfig.cmake ${PROJECT_BINARY_DIR}/sla
               ${CMAKE_CURRENT_LIST_DIR}/SlamotAddPlugin.cmake
         DESTINATION ${SLAMOT_PACKAGE_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config DESTINATION ${SLAMOT_DATA_DIR})
+# The laws third parties hold their plugins to with slamot_add_plugin_test(), with or without tests built here.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/conformance DESTINATION ${SLAMOT_DATA_DIR}
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.cpp" PATTERN "selftest" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/tests/support/Expect.h DESTINATION ${SLAMOT_DATA_DIR}/support)

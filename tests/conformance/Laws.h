@@ -15,7 +15,7 @@ Verdict sameBitsForAnyThreads(const Options& options);
 Verdict resetEqualsNew(const Options& options);
 /// Robot, tracks and the whole joint covariance are symmetric and positive semi-definite after every call.
 Verdict covariancesStayDefinite(const Options& options);
-/// Looking and seeing nothing is legal and leaves the means where they are.
+/// Looking and seeing nothing is legal; a deterministic estimator stays where it is.
 Verdict emptySetIsAccepted(const Options& options);
 /// Time going back is a TimeOrderError, changes nothing, and the run can go on.
 Verdict timeGoingBackIsRefused(const Options& options);
