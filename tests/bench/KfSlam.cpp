@@ -23,8 +23,8 @@ std::vector<Frame> readFrames(const std::string& log) {
     auto archive = mrpt::serialization::archiveFrom(file);
     std::vector<Frame> frames;
     std::size_t entry = 0;
-    for (Frame frame; mrpt::obs::CRawlog::readActionObservationPair(archive, frame.first, frame.second, entry);
-         frame = {})
+    for (Frame frame;
+         mrpt::obs::CRawlog::readActionObservationPair(archive, frame.first, frame.second, entry); frame = {})
         frames.push_back(frame);
     if (frames.empty()) throw std::runtime_error(log + ": no pair of action and sensory frame");
     return frames;

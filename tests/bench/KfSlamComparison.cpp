@@ -1,15 +1,15 @@
-// Time and accuracy beside MRPT's kf-slam: same logs, same noise, same process, one thread, the filters taking
-// turns. Prints JSON; scripts/results/kf_slam.py makes the logs and the tables.
-#include <CLI/CLI.hpp>
+// Time and accuracy beside MRPT's kf-slam: same logs, same noise, same process, one thread, the filters
+// taking turns. Prints JSON; scripts/results/kf_slam.py makes the logs and the tables.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "Trial.h"
@@ -101,10 +101,12 @@ void drawTimes(const std::map<std::string, std::vector<Trial>>& trials, const st
     panel.x.logarithmic = panel.y.logarithmic = true;
     panel.height = 300;
     std::size_t index = 0;
-    for (const auto& [name, label] : {std::pair("kf-slam", "MRPT kf-slam"), std::pair("classic", "slamot, classic"),
-                                      std::pair("invariant", "slamot, invariant")}) {
+    for (const auto& [name, label] :
+         {std::pair("kf-slam", "MRPT kf-slam"), std::pair("classic", "slamot, classic"),
+          std::pair("invariant", "slamot, invariant")}) {
         const report::SeriesStyle style = report::seriesStyle(index++);
-        panel.layers.push_back(report::Line{label, timeBySize(trials.at(name)), style.colour, 1.5, style.dash});
+        panel.layers.push_back(
+            report::Line{label, timeBySize(trials.at(name)), style.colour, 1.5, style.dash});
     }
     report::Figure figure;
     figure.title = "Time of a frame by map size";
@@ -120,7 +122,8 @@ void drawTimes(const std::map<std::string, std::vector<Trial>>& trials, const st
 
 int main(int argc, char** argv) try {
     using namespace slamot::bench;
-    CLI::App app("Runs MRPT's kf-slam and ekf_slamot on the same action-frame logs and prints their times and errors");
+    CLI::App app(
+        "Runs MRPT's kf-slam and ekf_slamot on the same action-frame logs and prints their times and errors");
     std::vector<std::string> logs;
     std::string config, figure;
     SensorNoise noise{0.03, 0.1 * M_PI / 180};
@@ -160,8 +163,9 @@ int main(int argc, char** argv) try {
             }
             trials.push_back(row);
             std::cerr << fmt::format("{} {}/{}: kf-slam {:.3f} ms, classic {:.3f} ms, invariant {:.3f} ms\n",
-                                     std::filesystem::path(log).filename().string(), repetition + 1, repetitions,
-                                     row["kf-slam"]["mean_ms"].get<double>(), row["classic"]["mean_ms"].get<double>(),
+                                     std::filesystem::path(log).filename().string(), repetition + 1,
+                                     repetitions, row["kf-slam"]["mean_ms"].get<double>(),
+                                     row["classic"]["mean_ms"].get<double>(),
                                      row["invariant"]["mean_ms"].get<double>());
         }
         results.push_back({{"log", std::filesystem::path(log).filename().string()}, {"trials", trials}});

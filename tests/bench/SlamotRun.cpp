@@ -9,7 +9,7 @@ namespace {
 
 /// Keeps poses and counts. The pipeline closes a step when time moves on, so number 0 is the start.
 class TrialSink : public run::Sink {
-   public:
+  public:
     explicit TrialSink(Trial& trial) : trial_(trial) {}
     void step(const run::Step& step) override {
         if (started_) {
@@ -20,15 +20,15 @@ class TrialSink : public run::Sink {
         started_ = true;
     }
 
-   private:
+  private:
     Trial& trial_;
     bool started_ = false;
 };
 
 }  // namespace
 
-Trial runSlamot(const std::string& log, const std::string& config_file, const std::vector<std::string>& settings,
-                bool certain_start) {
+Trial runSlamot(const std::string& log, const std::string& config_file,
+                const std::vector<std::string>& settings, bool certain_start) {
     static const PluginRegistry registry = PluginRegistry::discover();
     Config config = Config::fromFile(config_file);
     for (const std::string& setting : settings) config.setFromAssignment(setting);
@@ -38,7 +38,8 @@ Trial runSlamot(const std::string& log, const std::string& config_file, const st
     std::vector<LogEntry> entries;
     bool moved_and_seen = false;
     while (auto entry = reader.next()) {
-        if (certain_start && entry->increment && !moved_and_seen) entry->increment->covariance = Matrix3::Zero();
+        if (certain_start && entry->increment && !moved_and_seen)
+            entry->increment->covariance = Matrix3::Zero();
         moved_and_seen |= !entry->increment && !entries.empty() && entries.back().increment;
         entries.push_back(std::move(*entry));
     }
@@ -47,8 +48,8 @@ Trial runSlamot(const std::string& log, const std::string& config_file, const st
     Trial trial;
     TrialSink sink(trial);
     run::Pipeline pipeline(assembled.config, *assembled.estimator, nullptr, nullptr, 1, {&sink});
-    // The detections of a frame are taken in when the next movement arrives, so a frame's time is that of what
-    // lies between two movements: its update and the prediction of the next.
+    // The detections of a frame are taken in when the next movement arrives, so a frame's time is that of
+    // what lies between two movements: its update and the prediction of the next.
     double begin = 0;
     bool within = false;
     for (const LogEntry& entry : entries) {

@@ -25,8 +25,8 @@ struct Trial {
 Trial runKfSlam(const std::string& log, const SensorNoise& noise);
 
 /// ekf_slamot through the pipeline of `slamot run`, without output files. `settings` are `section.key=value`.
-/// With `certain_start` the movements before the first detection bring no noise, as with kf-slam, which does not
-/// predict while its map is empty.
+/// With `certain_start` the movements before the first detection bring no noise, as with kf-slam, which does
+/// not predict while its map is empty.
 Trial runSlamot(const std::string& log, const std::string& config, const std::vector<std::string>& settings,
                 bool certain_start);
 

@@ -8,8 +8,8 @@
 #include "slamot/core/estimation/DenseJointState.h"
 #include "slamot/core/estimation/JointFilter.h"
 
-// Eigen calls malloc directly, so this program's malloc counts; the C library's own stands behind it. Sanitizers
-// bring their own, where this test has nothing to say.
+// Eigen calls malloc directly, so this program's malloc counts; the C library's own stands behind it.
+// Sanitizers bring their own, where this test has nothing to say.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
 #define SLAMOT_COUNTS_ALLOCATIONS 0
 #else
@@ -55,9 +55,10 @@ int allocationsOf(const Action& action) {
 }
 
 class Allocations : public ::testing::TestWithParam<Consistency> {
-   protected:
+  protected:
     void SetUp() override {
-        if (!SLAMOT_COUNTS_ALLOCATIONS) GTEST_SKIP() << "allocations are counted with the plain C library only";
+        if (!SLAMOT_COUNTS_ALLOCATIONS)
+            GTEST_SKIP() << "allocations are counted with the plain C library only";
         std::vector<int> proof;
         ASSERT_EQ(allocationsOf([&] { proof.resize(8); }), 1);
     }

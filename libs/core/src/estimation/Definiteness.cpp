@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 namespace slamot {
@@ -10,7 +9,8 @@ namespace {
 
 /// Covariances of poses, targets and measurements: checked at every step, so kept off the heap.
 constexpr int small_size = 6;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, small_size, small_size>;
+using SmallMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, small_size, small_size>;
 
 template <class Matrix>
 bool semidefinite(const Matrix& matrix, double tolerance) {
