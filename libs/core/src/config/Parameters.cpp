@@ -11,17 +11,13 @@
 
 #include "slamot/core/data/Angle.h"
 
+#include "Text.h"
+
 namespace slamot {
 namespace {
 
 bool isDegrees(const std::string& key) {
     return key.size() > 4 && key.compare(key.size() - 4, 4, "_deg") == 0;
-}
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Degrees and radians are both doubles, but not every double in radians is that of a double in degrees. Text
