@@ -42,7 +42,7 @@ def tracked():
 
 
 def plugin_folders():
-    return sorted(p.parent for p in (ROOT / "plugins").glob("*/CMakeLists.txt"))
+    return sorted(p for p in (ROOT / "plugins").iterdir() if p.is_dir())
 
 
 def camel_case(name):

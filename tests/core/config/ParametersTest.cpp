@@ -34,7 +34,7 @@ struct Everything {
         ParameterTable t("all", "All kinds.");
         t.real("number", number, "m", Interval::any(), "A number.")
             .real("angle_deg", angle, "deg", Interval::any(), "An angle.")
-            .real("limit", limit, "s", Interval::positive(), "A limit.")
+            .real("limit", limit, "s", Interval::positiveOrInfinite(), "A limit.")
             .optionalReal("maybe", maybe, "m", Interval::nonNegative(), "Perhaps a number.")
             .reals("list", list, "-", Interval::any(), "Numbers.")
             .reals("angles_deg", angles, "deg", Interval::any(), "Angles.")
@@ -159,11 +159,13 @@ TEST(ParametersTest, TakesNumbersInAllUsualForms) {
     }
 }
 
-TEST(ParametersTest, InfinityOnlyWhereTheIntervalHasNoUpperEnd) {
-    double open = 1, closed = 1;
+TEST(ParametersTest, InfinityOnlyWhereTheIntervalSaysSo) {
+    double open = 1, closed = 1, finite = 1;
     ParameterTable table("a", "");
-    table.real("open", open, "", Interval::positive(), "")
-        .real("closed", closed, "", Interval::between(0, 2), "");
+    table.real("open", open, "", Interval::positiveOrInfinite(), "")
+        .real("closed", closed, "", Interval::between(0, 2), "")
+        .real("finite", finite, "", Interval::any(), "");
+    EXPECT_TRUE(table.find("finite")->parse("inf"));
     EXPECT_FALSE(table.find("open")->parse("inf"));
     EXPECT_TRUE(std::isinf(open));
     EXPECT_EQ(table.find("open")->print(), "inf");

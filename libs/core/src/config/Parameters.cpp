@@ -11,17 +11,13 @@
 
 #include "slamot/core/data/Angle.h"
 
+#include "Text.h"
+
 namespace slamot {
 namespace {
 
 bool isDegrees(const std::string& key) {
     return key.size() > 4 && key.compare(key.size() - 4, 4, "_deg") == 0;
-}
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Degrees and radians are both doubles, but not every double in radians is that of a double in degrees. Text
@@ -50,7 +46,7 @@ std::optional<double> readNumber(const std::string& text, const Interval& interv
     const std::string word = trimmed(text);
     const auto value = numberFromText(word);
     if (!value || !interval.contains(*value)) return std::nullopt;
-    if (std::isinf(*value) && !(std::isinf(interval.high) && *value > 0)) return std::nullopt;
+    if (std::isinf(*value) && !(interval.infinite && *value > 0)) return std::nullopt;
     return is_degrees ? radiansFromText(word) : *value;
 }
 
@@ -85,6 +81,7 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
 std::string Interval::text() const {
     const bool from = std::isfinite(low), to = std::isfinite(high);
     const std::string a = shortestText(low), b = shortestText(high);
+    if (infinite) return (open_low ? "above " : "of at least ") + a + ", or inf";
     if (from && to) return fmt::format("in {}{}, {}{}", open_low ? '(' : '[', a, b, open_high ? ')' : ']');
     if (from) return (open_low ? "above " : "of at least ") + a;
     if (to) return (open_high ? "below " : "of at most ") + b;

@@ -88,7 +88,7 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
               "Prior of each velocity component at first sight.")
         .real("acceleration_std", p.target_acceleration_std, "m/s^2", Interval::nonNegative(),
               "Prior of each acceleration component at first sight.")
-        .real("max_unseen", p.target_max_unseen, "s", Interval::positive(),
+        .real("max_unseen", p.target_max_unseen, "s", Interval::positiveOrInfinite(),
               "A track not seen for longer ends; inf keeps it.");
     return {filter, outliers, target};
 }
