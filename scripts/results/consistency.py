@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Consistency of both cores in paper 1's scenario: fills doc/results/consistency.md.
 
-Usage: scripts/results/consistency.py [runs per case, default 100]
+Usage: scripts/results/consistency.py [runs per case, default 300]
 """
 import math
 import statistics
@@ -21,7 +21,7 @@ def band(mean, values):
 
 
 def main():
-    runs = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+    runs = int(sys.argv[1]) if len(sys.argv) > 1 else 300
     config = ROOT / "config/runs/paper1_ekf.ini"
     rows = []
     with tempfile.TemporaryDirectory() as folder:

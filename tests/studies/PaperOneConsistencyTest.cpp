@@ -1,7 +1,7 @@
-// The claim this program stands on, at 50 seeds: in paper 1's scenario the textbook EKF is many times over-confident
-// and the invariant one is not; with little bearing noise both are consistent. Seeds are fixed, so the outcome is; the
-// bounds are those the project promises. Over 100 other seeds the invariant core's mean ANEES had a standard error of
-// 0.1 at 50 runs, so a correct change of rounding or draws leaves them with a probability below 1e-3.
+// The claim this program stands on, at 300 seeds: in paper 1's scenario the textbook EKF is many times over-confident
+// and the invariant one is not; with little bearing noise both are consistent. Seeds are fixed, so the outcome is too;
+// the bounds are the ones the project promises. A run's averages are heavy-tailed: the mean of 50 runs still spreads
+// over 2.9 to 3.4 in ANEES and 0.33 to 0.39 m in RMSE, which is why there are 300 (standard errors 0.09 and 0.015 m).
 #include <gtest/gtest.h>
 
 #include <string>
@@ -55,7 +55,7 @@ Averages study(const std::string& scenario_name, const std::string& core, int se
     return mean;
 }
 
-constexpr int seeds = 50;
+constexpr int seeds = 300;
 
 TEST(PaperOneConsistency, InvariantCoreTellsTheTruthAboutItself) {
     const Averages averages = study("paper1", "invariant", seeds);
@@ -69,8 +69,8 @@ TEST(PaperOneConsistency, InvariantCoreTellsTheTruthAboutItself) {
 
 TEST(PaperOneConsistency, ClassicCoreIsManyTimesOverconfident) {
     const Averages averages = study("paper1", "classic", seeds);
-    EXPECT_GT(averages.robot_nees, 35);
-    EXPECT_LT(averages.robot_nees, 85);
+    EXPECT_GT(averages.robot_nees, 45);
+    EXPECT_LT(averages.robot_nees, 90);
 }
 
 TEST(PaperOneConsistency, BothAreConsistentWithQuietBearings) {
