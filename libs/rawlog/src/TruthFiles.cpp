@@ -237,6 +237,9 @@ Truth readTruth(const std::string& folder) {
     if (!fs::is_directory(folder))
         throw LogError(fmt::format("{}: is no folder, expected one with truth", folder));
     const fs::path in(folder);
+    // A run's landmarks.csv has the columns of a true one: taken for truth it would find no error at all.
+    if (fs::exists(in / "trajectory.csv"))
+        throw LogError(fmt::format("{}: is the output of a run, expected a folder with truth", folder));
     Truth truth;
     bool any = false;
     const auto present = [&](const char* name) { return fs::exists(in / name) && (any = true); };

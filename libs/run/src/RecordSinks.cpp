@@ -43,6 +43,7 @@ void EstimateHash::step(const Step& step) {
         impl_->add(track.id.value);
         impl_->add(track.mean.data(), 6);
         impl_->add(track.covariance.data(), 36);
+        impl_->add(&track.existence, 1);
         impl_->add(track.mode_probabilities.data(), track.mode_probabilities.size());
     }
 }
