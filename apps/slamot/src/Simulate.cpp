@@ -76,19 +76,11 @@ void addSimulate(CLI::App& app, Action& chosen) {
     command->add_option("scenario", options->scenario, "Scenario INI file (doc/simulator.md)")->required();
     command->add_option("-o,--out", options->out, "Log to write; with several robots the folder NAME for NAME.rawlog")
         ->required();
-<<<<<<< /tmp/bi/fmt/orig
-    command->add_option("--seed", options->seed, "Seed of the world and all noise")->capture_default_str();
-    command->add_option("--set", options->set, "section.key=value, instead of the file's")->allow_extra_args(false);
-    command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return simulate(*options, v); }; });
-=======
     command->add_option("--seed", options->seed, "Seed of the world and all noise")
         ->check(wholeNumber())
         ->capture_default_str();
-    command->add_option("--set", options->set, "section.key=value, instead of the file's")
-        ->allow_extra_args(false);
-    command->callback(
-        [&chosen, options] { chosen = [options](const Verbosity& v) { return simulate(*options, v); }; });
->>>>>>> /tmp/bi/fmt/cur
+    command->add_option("--set", options->set, "section.key=value, instead of the file's")->allow_extra_args(false);
+    command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return simulate(*options, v); }; });
 }
 
 }  // namespace slamot::app

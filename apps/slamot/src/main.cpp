@@ -27,16 +27,16 @@ void onSignal(int signal) {
 }
 
 /// CLI11 takes a word it does not know for no subcommand at all.
-void requireKnownSubcommand(const CLI::App& app, int argc, char** argv) {
-    const char* const* end = argv + argc;
-    const char* const* word =
-        std::find_if(argv + (argc > 0 ? 1 : 0), end, [](const char* a) { return a[0] != '-'; });
-    if (word == end || app.get_subcommand_no_throw(*word)) return;
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({}))
-        if (!command->get_group().empty()) names.push_back(command->get_name());
-    const auto near = nearestWord(*word, names);
-    throw UsageError(fmt::format("no subcommand '{}', expected one of {}{}", *word, fmt::join(names, ", "),
+void requireKnownSubcommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+    const auto word = std::find_if(arguments.begin(), arguments.end(), [](const std::string& a) { return a[0] != '-'; });
+    if (word == arguments.end()) return;
+    std::vector<std::string> shown;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == *word) return;
+        if (!command->get_group().empty()) shown.push_back(command->get_name());
+    }
+    const auto near = nearestWord(*word, shown);
+    throw UsageError(fmt::format("no subcommand '{}', expected one of {}{}", *word, fmt::join(shown, ", "),
                                  near ? " (did you mean '" + *near + "'?)" : ""));
 }
 
@@ -70,7 +70,7 @@ int runMain(int argc, char** argv) {
         return fmt::format("slamot: {}; see slamot{} --help\n", error.what(),
                            chosen.empty() ? "" : " " + chosen.front()->get_name());
     });
-    requireKnownSubcommand(app, argc, argv);
+    requireKnownSubcommand(app, {argv + std::min(argc, 1), argv + argc});
 
     try {
         app.parse(argc, argv);
