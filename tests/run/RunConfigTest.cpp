@@ -136,7 +136,9 @@ TEST(RunConfigTest, TheFullTextOfEveryPluginAssemblesToItsDefaults) {
     for (const PluginInfo& plugin : registry().plugins()) {
         const std::string text = run::fullConfigText(plugin.name, registry());
         const auto run = assembled(text);
-        if (plugin.kind == "estimator") EXPECT_EQ(run.estimator->name(), plugin.name);
+        if (plugin.kind == "estimator") {
+            EXPECT_EQ(run.estimator->name(), plugin.name);
+        }
         // Printing the read values again gives the same text: nothing is lost on the way.
         run::RunConfig config = run.config;
         for (const ParameterTable& table : describe(config)) {

@@ -33,7 +33,7 @@ void makeFolder(const fs::path& folder) {
                                      folder.string(), error ? error.message() : "it is no folder"));
 }
 
-int simulate(const Options& options, const Verbosity& verbosity) {
+std::vector<sim::SimulatedLog> makeLogs(const Options& options, const Verbosity& verbosity) {
     Config config = Config::fromFile(options.scenario);
     for (const std::string& assignment : options.set) config.setFromAssignment(assignment);
     const sim::Scenario scenario = sim::loadScenario(config);
@@ -49,6 +49,22 @@ int simulate(const Options& options, const Verbosity& verbosity) {
         });
     }
     if (logs.empty()) throw std::runtime_error("stopped before anything was written");
+    return logs;
+}
+
+/// What is wrong with several settings together has no line of its own: then the file is named here.
+std::vector<sim::SimulatedLog> makeLogsOrNameFile(const Options& options, const Verbosity& verbosity) {
+    try {
+        return makeLogs(options, verbosity);
+    } catch (const ConfigError& error) {
+        const std::string what = error.what();
+        const bool named = what.rfind(options.scenario, 0) == 0 || what.rfind("--set", 0) == 0;
+        throw ConfigError(named ? what : options.scenario + ": " + what);
+    }
+}
+
+int simulate(const Options& options, const Verbosity& verbosity) {
+    const std::vector<sim::SimulatedLog> logs = makeLogsOrNameFile(options, verbosity);
 
     // One robot's log is OUT itself, several go into the folder OUT without its ending.
     const fs::path out(options.out);

@@ -116,10 +116,12 @@ void readNotes(const std::string& file, Truth& truth) {
         truth.source = notes.value("source", truth.source);
         truth.position_std = notes.value("position_std", truth.position_std);
     } catch (const json::exception& error) {
+        // The reason stands after the library's own name for it, in brackets.
+        const std::string what = error.what(), reason = what.substr(std::min(what.size(), what.find("] ") + 2));
         throw LogError(
             fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
                         "'position_std' ({})",
-                        file, error.what()));
+                        file, reason));
     }
 }
 

@@ -126,12 +126,11 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
             break;
         }
     }
+    const RunStatus status = statusOf(reader, stopped);
+    pipeline.finish(status);
     DropTable drops = reader.drops();
     for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
-    const RunStatus status = statusOf(reader, stopped);
-    if (!pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
-    pipeline.finish(status);
-    if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    if (!stopped || !pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
 
     RunResult result;
     result.status = status;
