@@ -36,6 +36,9 @@ void addConfig(CLI::App& app, Action& chosen);
 /// Hidden: the child that looks through an untrusted log.
 void addCheckLog(CLI::App& app, Action& chosen);
 
+/// For options that take a whole number from 0 on: CLI11 itself reads -1 as a very large one.
+CLI::Validator wholeNumber();
+
 /// Becomes true at Ctrl-C (or SIGTERM); a second one ends the program at once.
 const std::atomic<bool>& interrupted();
 

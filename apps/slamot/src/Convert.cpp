@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "Command.h"
 #include "LogGuard.h"
 #include "Progress.h"
+#include "slamot/core/config/Parameters.h"
 #include "slamot/core/data/Stamp.h"
 #include "slamot/rawlog/LogConvert.h"
 
@@ -27,6 +30,30 @@ Stamp timeFrom(const std::string& text, const LogSummary& summary) {
     }
 }
 
+/// What would leave nothing is a slip.
+void requireSomethingKept(const ConvertOptions& how, const LogSummary& summary) {
+    std::vector<std::string> labels;
+    Stamp first{INT64_MAX}, last{INT64_MIN};
+    for (const SensorSummary& sensor : summary.sensors) {
+        labels.push_back(sensor.label);
+        first = std::min(first, sensor.first);
+        last = std::max(last, sensor.last);
+    }
+    for (const std::string& label : how.labels) {
+        if (std::find(labels.begin(), labels.end(), label) != labels.end()) continue;
+        const auto near = nearestWord(label, labels);
+        throw UsageError(fmt::format("--label {}: the log has no such sensor, expected one of '{}'{}", label,
+                                     fmt::join(labels, "', '"),
+                                     near ? " (did you mean '" + *near + "'?)" : ""));
+    }
+    if (!how.from && !how.to) return;
+    const Stamp from = how.from.value_or(first), to = how.to.value_or(last);
+    if (from > to || from > last || to < first)
+        throw UsageError(fmt::format(
+            "--from/--to: nothing lies between {} and {}, expected times within the log's {} to {}",
+            toText(from), toText(to), toText(first), toText(last)));
+}
+
 int convert(const Options& options, const Verbosity& verbosity) {
     const LogParameters parameters;
     const LogSummary summary = guardedSummary(options.in, parameters);
@@ -37,6 +64,8 @@ int convert(const Options& options, const Verbosity& verbosity) {
     if (!options.from.empty()) how.from = timeFrom(options.from, summary);
     if (!options.to.empty()) how.to = timeFrom(options.to, summary);
 
+    requireSomethingKept(how, summary);
+
     ConvertResult result;
     {
         Progress progress("converting", verbosity.quiet);
@@ -45,12 +74,11 @@ int convert(const Options& options, const Verbosity& verbosity) {
             return !interrupted();
         });
     }
-    if (interrupted()) throw std::runtime_error(options.out + ".part holds what was written before the stop");
     if (!verbosity.quiet)
         fmt::print("{}: {} observations and {} odometry entries written, {} left out\n", options.out, result.observations,
                    result.odometry, result.left_out);
     if (result.end != LogEnd::clean) {
-        fmt::print(stderr, "slamot: {}: {}\n", options.in, result.end_message);
+        fmt::print(stderr, "slamot: {}; what came before was written\n", result.end_message);
         return exit_bad_input;
     }
     return exit_success;

@@ -30,6 +30,7 @@ int evaluate(const Options& options, const Verbosity& verbosity) {
     if (!options.json.empty()) {
         std::ofstream out(options.json);
         out << eval::toJson(metrics).dump(2) << '\n';
+        out.close();
         if (!out) throw UsageError(options.json + ": cannot be written");
     }
     return exit_success;

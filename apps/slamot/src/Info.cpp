@@ -67,7 +67,7 @@ int info(const Options& options, const Verbosity&) {
         printUses(summary);
     }
     if (summary.end == LogEnd::clean) return exit_success;
-    fmt::print(stderr, "slamot: {}: truncated: {}\n", options.log, summary.end_message);
+    fmt::print(stderr, "slamot: {}; the log is truncated\n", summary.end_message);
     return exit_bad_input;
 }
 

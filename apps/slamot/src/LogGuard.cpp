@@ -20,7 +20,7 @@ Checksum requireNotTampered(const std::string& file) {
 LogSummary guardedSummary(const std::string& file, const LogParameters& parameters) {
     requireNotTampered(file);
     LogSummary summary = summariseInChild(ownProgram(), file, parameters);
-    if (summary.end == LogEnd::corrupt) throw LogError(file + ": corrupt: " + summary.end_message);
+    if (summary.end == LogEnd::corrupt) throw LogError(summary.end_message + "; the log is corrupt");
     return summary;
 }
 

@@ -97,7 +97,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
             fmt::print(stderr, "slamot: stopped; the outputs hold what was done\n");
             return exit_failed;
         default:
-            fmt::print(stderr, "slamot: {}: {}\n", options.log, result.end_message);
+            fmt::print(stderr, "slamot: {}; the outputs hold what came before\n", result.end_message);
             return exit_bad_input;
     }
 }
@@ -116,7 +116,7 @@ void addRun(CLI::App& app, Action& chosen) {
     command->add_option("--set", options->set, "section.key=value, instead of the file's")->allow_extra_args(false);
     command->add_option("--seed", options->seed, "Instead of [run] seed");
     command->add_option("--threads", options->threads, "Threads; results do not depend on it")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return runJob(*options, v); }; });
 }

@@ -25,10 +25,21 @@ void writeLog(const sim::SimulatedLog& log, const std::string& file) {
     writeTruth(log.truth, truthFolderOf(file));
 }
 
-int simulate(const Options& options, const Verbosity& verbosity) {
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (!folder.empty() && !fs::is_directory(folder))
+        throw UsageError(fmt::format("{}: cannot be made ({}), expected a folder to write to",
+                                     folder.string(), error ? error.message() : "it is no folder"));
+}
+
+std::vector<sim::SimulatedLog> makeLogs(const Options& options, const Verbosity& verbosity) {
     Config config = Config::fromFile(options.scenario);
     for (const std::string& assignment : options.set) config.setFromAssignment(assignment);
     const sim::Scenario scenario = sim::loadScenario(config);
+    std::error_code ignored;
+    if (fs::equivalent(options.scenario, options.out, ignored))
+        throw UsageError(options.out + ": is the scenario, expected another name for the log");
     std::vector<sim::SimulatedLog> logs;
     {
         Progress progress("simulating", verbosity.quiet);
@@ -38,12 +49,27 @@ int simulate(const Options& options, const Verbosity& verbosity) {
         });
     }
     if (logs.empty()) throw std::runtime_error("stopped before anything was written");
+    return logs;
+}
+
+/// What is wrong with several settings together has no line of its own: then the file is named here.
+std::vector<sim::SimulatedLog> makeLogsOrNameFile(const Options& options, const Verbosity& verbosity) {
+    try {
+        return makeLogs(options, verbosity);
+    } catch (const ConfigError& error) {
+        const std::string what = error.what();
+        const bool named = what.rfind(options.scenario, 0) == 0 || what.rfind("--set", 0) == 0;
+        throw ConfigError(named ? what : options.scenario + ": " + what);
+    }
+}
+
+int simulate(const Options& options, const Verbosity& verbosity) {
+    const std::vector<sim::SimulatedLog> logs = makeLogsOrNameFile(options, verbosity);
 
     // One robot's log is OUT itself, several go into the folder OUT without its ending.
     const fs::path out(options.out);
-    if (logs.size() == 1 && out.has_parent_path()) fs::create_directories(out.parent_path());
     const fs::path folder = fs::path(out).replace_extension();
-    if (logs.size() > 1) fs::create_directories(folder);
+    makeFolder(logs.size() == 1 ? out.parent_path() : folder);
     for (const sim::SimulatedLog& log : logs) {
         const std::string file =
             logs.size() == 1 ? out.string() : (folder / fmt::format("robot_{}.rawlog", log.robot)).string();
@@ -66,7 +92,9 @@ void addSimulate(CLI::App& app, Action& chosen) {
     command->add_option("scenario", options->scenario, "Scenario INI file (doc/simulator.md)")->required();
     command->add_option("-o,--out", options->out, "Log to write; with several robots the folder NAME for NAME.rawlog")
         ->required();
-    command->add_option("--seed", options->seed, "Seed of the world and all noise")->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of the world and all noise")
+        ->check(wholeNumber())
+        ->capture_default_str();
     command->add_option("--set", options->set, "section.key=value, instead of the file's")->allow_extra_args(false);
     command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return simulate(*options, v); }; });
 }

@@ -1,12 +1,16 @@
 // slamot: one program, one source file per subcommand.
 #include <fmt/format.h>
+#include <mrpt/core/exceptions.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 
 #include "Command.h"
 #include "slamot/core/Version.h"
 #include "slamot/core/config/Config.h"
+#include "slamot/core/config/Parameters.h"
 #include "slamot/core/plugin/PluginRegistry.h"
 #include "slamot/rawlog/LogError.h"
 
@@ -20,6 +24,20 @@ void onSignal(int signal) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
+}
+
+/// CLI11 takes a word it does not know for no subcommand at all.
+void requireKnownSubcommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+    const auto word = std::find_if(arguments.begin(), arguments.end(), [](const std::string& a) { return a[0] != '-'; });
+    if (word == arguments.end()) return;
+    std::vector<std::string> shown;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == *word) return;
+        if (!command->get_group().empty()) shown.push_back(command->get_name());
+    }
+    const auto near = nearestWord(*word, shown);
+    throw UsageError(fmt::format("no subcommand '{}', expected one of {}{}", *word, fmt::join(shown, ", "),
+                                 near ? " (did you mean '" + *near + "'?)" : ""));
 }
 
 int runMain(int argc, char** argv) {
@@ -47,6 +65,13 @@ int runMain(int argc, char** argv) {
     addConfig(app, action);
     addCheckLog(app, action);
 
+    app.failure_message([](const CLI::App* at, const CLI::Error& error) {
+        const auto chosen = at->get_subcommands();
+        return fmt::format("slamot: {}; see slamot{} --help\n", error.what(),
+                           chosen.empty() ? "" : " " + chosen.front()->get_name());
+    });
+    requireKnownSubcommand(app, {argv + std::min(argc, 1), argv + argc});
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -54,10 +79,31 @@ int runMain(int argc, char** argv) {
     }
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
-    return action(verbosity);
+    const int code = action(verbosity);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw std::runtime_error("standard output: cannot be written to its end (is the disk full?)");
+    return code;
+}
+
+/// One line: MRPT's exceptions come with a call stack.
+std::string sentenceOf(const std::exception& error) {
+    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
+    std::string text = with_stack ? with_stack->originalWhat : error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
 }
 
 }  // namespace
+
+CLI::Validator wholeNumber() {
+    return {[](const std::string& text) {
+                const bool digits =
+                    !text.empty() && text.size() <= 19 &&
+                    std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+                return digits ? std::string() : "'" + text + "', expected a whole number of at least 0";
+            },
+            ""};
+}
 
 const std::atomic<bool>& interrupted() {
     return stop_requested;
@@ -71,8 +117,8 @@ std::string ownProgram() {
 
 int main(int argc, char** argv) {
     const auto fail = [](const std::exception& error, int code) {
-        fmt::print(stderr, "slamot: {}\n", error.what());
-        return code;
+        fmt::print(stderr, "slamot: {}\n", slamot::app::sentenceOf(error));
+        return slamot::app::interrupted() ? slamot::app::exit_failed : code;
     };
     try {
         return slamot::app::runMain(argc, argv);

@@ -116,10 +116,12 @@ void readNotes(const std::string& file, Truth& truth) {
         truth.source = notes.value("source", truth.source);
         truth.position_std = notes.value("position_std", truth.position_std);
     } catch (const json::exception& error) {
+        // The reason stands after the library's own name for it, in brackets.
+        const std::string what = error.what(), reason = what.substr(std::min(what.size(), what.find("] ") + 2));
         throw LogError(
             fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
                         "'position_std' ({})",
-                        file, error.what()));
+                        file, reason));
     }
 }
 
@@ -237,6 +239,9 @@ Truth readTruth(const std::string& folder) {
     if (!fs::is_directory(folder))
         throw LogError(fmt::format("{}: is no folder, expected one with truth", folder));
     const fs::path in(folder);
+    // A run's landmarks.csv has the columns of a true one: taken for truth it would find no error at all.
+    if (fs::exists(in / "trajectory.csv"))
+        throw LogError(fmt::format("{}: is the output of a run, expected a folder with truth", folder));
     Truth truth;
     bool any = false;
     const auto present = [&](const char* name) { return fs::exists(in / name) && (any = true); };

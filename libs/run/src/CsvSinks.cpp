@@ -14,6 +14,13 @@ std::string row(const Fields&... fields) {
     return line;
 }
 
+/// A sensor's name as a field: the tables know no quotes, so what would break a row is replaced.
+std::string fieldOf(std::string label) {
+    for (char& c : label)
+        if (c == ',' || c == '\n' || c == '\r') c = '_';
+    return label;
+}
+
 std::int64_t idOf(SourceId id) {
     return id.valid() ? id.value : -1;
 }
@@ -99,7 +106,8 @@ InnovationsSink::InnovationsSink(const std::string& folder) : csv_(folder + "/in
 void InnovationsSink::step(const Step& step) {
     const RangeBearingSet& set = step.detections.rangeBearing();
     for (const Innovation& i : step.report.innovations)
-        csv_.line(row(step.estimate.stamp, std::string_view(set.sensors[set.detections[i.detection].sensor].label),
+        csv_.line(row(step.estimate.stamp,
+                      std::string_view(fieldOf(set.sensors[set.detections[i.detection].sensor].label)),
                       std::string_view(slamot::toText(i.kind)), i.landmark.value, i.track.value,
                       std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(), i.covariance(0, 0),
                       i.covariance(0, 1), i.covariance(1, 1), i.nis));

@@ -1,17 +1,14 @@
 // map.landmarks.gz and correlation.bin.
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CLandmarksMap.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 
+#include "GzFile.h"
 #include "slamot/rawlog/Conventions.h"
-#include "slamot/rawlog/LogError.h"
 #include "slamot/run/MrptSinks.h"
+#include "slamot/run/PartFile.h"
 
 namespace slamot::run {
 
@@ -30,13 +27,7 @@ void LandmarkMapSink::end(const RunEnd& end) {
         landmark.seenTimesCount = static_cast<std::uint32_t>(l.seen);
         map.landmarks.push_back(landmark);
     }
-    const std::string file = folder_ + "/map.landmarks.gz";
-    {
-        mrpt::io::CFileGZOutputStream out;
-        if (!out.open(file + ".part")) throw LogError(file + ": cannot be written");
-        mrpt::serialization::archiveFrom(out) << map;
-    }
-    std::filesystem::rename(file + ".part", file);
+    writeGzFile(map, folder_ + "/map.landmarks.gz");
 }
 
 void CorrelationSink::end(const RunEnd& end) {
@@ -52,16 +43,12 @@ void CorrelationSink::end(const RunEnd& end) {
             float& cell = cells[static_cast<std::size_t>((i * rows / n) * rows + j * rows / n)];
             if (std::abs(value) > std::abs(cell)) cell = value;
         }
-    const std::string file = folder_ + "/correlation.bin";
-    {
-        std::ofstream out(file + ".part", std::ios::binary);
-        const std::uint32_t header[] = {1, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(rows)};
-        out.write("SLAMCORR", 8);
-        out.write(reinterpret_cast<const char*>(header), sizeof header);
-        out.write(reinterpret_cast<const char*>(cells.data()), static_cast<std::streamsize>(cells.size() * sizeof(float)));
-        if (!out) throw LogError(file + ": cannot be written");
-    }
-    std::filesystem::rename(file + ".part", file);
+    PartFile file(folder_ + "/correlation.bin");
+    const std::uint32_t header[] = {1, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(rows)};
+    file.write("SLAMCORR");
+    file.write({reinterpret_cast<const char*>(header), sizeof header});
+    file.write({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(float)});
+    file.close();
 }
 
 }  // namespace slamot::run

@@ -74,27 +74,50 @@ Pipeline::Pipeline(const RunConfig& config, Estimator& estimator, Detector* dete
 
 void Pipeline::push(const LogEntry& entry) {
     if (entry.increment) {
-        if (!started_) start(entry.increment->t0);
-        ++counts_.odometry;
-        advance(*entry.increment);
+        pushIncrement(*entry.increment);
         return;
     }
     const mrpt::obs::CObservation& observation = *entry.observation;
     for (Sink* sink : sinks_) sink->observation(observation);
 
+    if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
+        if (const auto reading = usable(*odometry)) pushOdometry(*reading, odometry->sensorLabel);
+    } else if (const auto* seen = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation)) {
+        if (const auto reading = usable(*seen)) pushDetections(*reading);
+    } else if (isScan(observation)) {
+        pushScan(entry.observation, entry.stamp);
+    } else {
+        drops_.add(observation.sensorLabel,
+                   std::string("unused-class-") + observation.GetRuntimeClass()->className);
+    }
+}
+
+template <class Observation>
+auto Pipeline::usable(const Observation& observation) -> std::optional<decltype(fromMrpt(observation))> {
     try {
-        if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
-            pushOdometry(fromMrpt(*odometry), odometry->sensorLabel);
-        else if (const auto* seen = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation))
-            pushDetections(fromMrpt(*seen));
-        else if (isScan(observation))
-            pushScan(entry.observation, entry.stamp);
-        else
-            drops_.add(observation.sensorLabel, std::string("unused-class-") + observation.GetRuntimeClass()->className);
+        return fromMrpt(observation);
     } catch (const LogError& error) {
         drops_.add(observation.sensorLabel, "unusable");
         if (first_unusable_.empty()) first_unusable_ = error.what();
+        return std::nullopt;
     }
+}
+
+void Pipeline::pushIncrement(const OdometryIncrement& odometry) {
+    if (!started_) start(odometry.t0);
+    ++counts_.odometry;
+    if (odometry.t0 > estimator_.time()) {
+        // Frames without a movement: MRPT's own programs take that as standing still, and so does this one.
+        OdometryIncrement still;
+        still.t0 = estimator_.time();
+        still.t1 = odometry.t0;
+        if (odometry.velocity) still.velocity = BodyVelocity{};
+        if (odometry.covariance) still.covariance = Matrix3::Zero();
+        still.entry_seconds = still.seconds();
+        ++counts_.odometry_gaps;
+        advance(still);
+    }
+    advance(odometry);
 }
 
 void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
@@ -118,12 +141,17 @@ void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& l
     if (!last_reading_)
         odometry_label_ = label;
     else if (label != odometry_label_)
-        throw ConfigError(fmt::format("the log has odometry of several labels, '{}' and '{}': choose one with [run] "
-                                      "odometry",
-                                      odometry_label_, label));
+        throw ConfigError(
+            fmt::format("the log has odometry of several labels, '{}' and '{}': choose one with [run] "
+                        "odometry",
+                        odometry_label_, label));
+    if (last_reading_ && reading.stamp <= last_reading_->stamp) {
+        drops_.add(label, "same-stamp");
+        return;
+    }
     if (!started_) start(reading.stamp);
     ++counts_.odometry;
-    if (last_reading_ && reading.stamp > last_reading_->stamp) {
+    if (last_reading_) {
         OdometryIncrement odometry;
         odometry.t0 = last_reading_->stamp;
         odometry.t1 = reading.stamp;
@@ -131,9 +159,6 @@ void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& l
         odometry.velocity = reading.velocity;
         odometry.entry_seconds = odometry.seconds();
         advance(odometry);
-    } else if (last_reading_) {
-        drops_.add(label, "same-stamp");
-        return;
     }
     last_reading_ = reading;
 }
@@ -270,12 +295,15 @@ Matrix2 Pipeline::noiseOf(const RangeBearingReading& reading, const RangeBearing
         covariance(i, i) = deviation * deviation;
     };
     if (noise.range_std || noise.range_std_per_m)
-        replace(0, noise.range_std.value_or(0) + noise.range_std_per_m.value_or(0) * item.range);
+        replace(0, noise.range_std.value_or(std::sqrt(covariance(0, 0))) +
+                       noise.range_std_per_m.value_or(0) * item.range);
     if (noise.bearing_std) replace(1, *noise.bearing_std);
     if (!(covariance(0, 0) > 0 && covariance(1, 1) > 0 && covariance.determinant() > 0))
-        throw ConfigError(fmt::format("sensor '{}' claims no usable noise: set [noise.{}] range_std and bearing_std_deg",
-                                      reading.sensor.label,
-                                      reading.sensor.label.empty() ? "<label>" : reading.sensor.label));
+        throw ConfigError(
+            fmt::format("sensor '{}' claims no usable noise at t = {}: set range_std and bearing_std_deg "
+                        "in [noise{}] of the config",
+                        reading.sensor.label, slamot::toText(reading.stamp),
+                        reading.sensor.label.empty() ? "" : "." + reading.sensor.label));
     return covariance;
 }
 
@@ -292,8 +320,9 @@ void Pipeline::closeStep() {
 
 void Pipeline::finish(RunStatus status) {
     if (!started_) return;
+    const Stamp last_odometry = estimator_.time();
     for (const Held& held : held_) {
-        const double beyond = secondsBetween(estimator_.time(), held.stamp);
+        const double beyond = secondsBetween(last_odometry, held.stamp);
         const bool reachable = beyond == 0 || (last_increment_ && beyond <= config_.max_odometry_gap);
         if (!reachable) {
             for (const auto& reading : held.readings) drops_.add(reading.sensor.label, "after-odometry");

@@ -25,6 +25,7 @@ void EstimateHash::step(const Step& step) {
         addInteger(track.id.value);
         addNumbers(track.mean.data(), 6);
         addNumbers(track.covariance.data(), 36);
+        addNumbers(&track.existence, 1);
         addNumbers(track.mode_probabilities.data(), track.mode_probabilities.size());
     }
 }

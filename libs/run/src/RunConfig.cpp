@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace slamot::run {
@@ -39,7 +40,9 @@ Parameter startPose(StartParameters& start) {
                 std::vector<double> numbers;
                 ParameterTable table("start", "");
                 table.reals("pose", numbers, "", Interval::any(), "");
-                if (table.find("pose")->parse(text) || numbers.size() != 3) return start_expected;
+                if (table.find("pose")->parse(text) || numbers.size() != 3 ||
+                    !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
+                    return start_expected;
                 start.kind = StartPose::given;
                 start.pose = {numbers[0], numbers[1], wrapAngle(radians(numbers[2]))};
                 return std::nullopt;

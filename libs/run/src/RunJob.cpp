@@ -17,13 +17,30 @@
 namespace slamot::run {
 namespace {
 
-/// Files a run may have left in its folder before: removed first, so that no old file passes for a new one.
-void clearOutputs(const std::string& folder) {
-    for (const char* name :
-         {"trajectory.csv", "trajectory.tum", "tracks.csv", "landmarks.csv", "landmarks_history.csv", "innovations.csv",
-          "steps.csv", "correlation.bin", "map.landmarks.gz", "scene.3Dscene", "estimate.rawlog",
-          "estimate.rawlog.sha256", "summary.json", "overview.svg", "overview.png", "overview.vg.json"})
-        for (const char* suffix : {"", ".part"}) std::filesystem::remove(folder + "/" + name + suffix);
+namespace fs = std::filesystem;
+
+/// Makes the folder and removes what a run may have left there before, so that no old file passes for a new
+/// one. The log itself may not be among that.
+void prepareFolder(const std::string& folder, const std::string& log_file) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw LogError(fmt::format("{}: cannot be made ({}), expected a folder to write to", folder,
+                                   error ? error.message() : "it is no folder"));
+    for (const char* name : {"trajectory.csv", "trajectory.tum", "tracks.csv", "landmarks.csv",
+                             "landmarks_history.csv", "innovations.csv", "steps.csv", "correlation.bin",
+                             "map.landmarks.gz", "scene.3Dscene", "estimate.rawlog", "estimate.rawlog.sha256",
+                             "summary.json", "overview.svg", "overview.png", "overview.vg.json"})
+        for (const char* suffix : {"", ".part"}) {
+            const std::string file = fmt::format("{}/{}{}", folder, name, suffix);
+            if (fs::equivalent(file, log_file, error))
+                throw LogError(
+                    fmt::format("{}: is the log to read and would be overwritten, expected another output "
+                                "folder",
+                                file));
+            fs::remove(file, error);
+            if (error) throw LogError(fmt::format("{}: cannot be replaced ({})", file, error.message()));
+        }
 }
 
 std::vector<std::unique_ptr<Sink>> fileSinks(const RunConfig& config, const std::string& folder,
@@ -88,8 +105,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     RawlogReader reader(request.log_file, assembled.config.log);
 
     const std::string& folder = request.out_folder;
-    std::filesystem::create_directories(folder);
-    clearOutputs(folder);
+    prepareFolder(folder, request.log_file);
     const auto files = fileSinks(assembled.config, folder, assembled.estimator->modeNames());
     RunRecorder recorder(assembled.config.output.interval, assembled.estimator->modeNames());
     EstimateHash hash;
@@ -110,12 +126,11 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
             break;
         }
     }
+    const RunStatus status = statusOf(reader, stopped);
+    pipeline.finish(status);
     DropTable drops = reader.drops();
     for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
-    const RunStatus status = statusOf(reader, stopped);
-    if (!pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
-    pipeline.finish(status);
-    if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    if (!stopped || !pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
 
     RunResult result;
     result.status = status;
@@ -148,7 +163,8 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     summary.cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     result.summary = makeSummary(summary);
     PartFile file(folder + "/summary.json");
-    file.line(result.summary.dump(2));
+    // Labels of a log may be no UTF-8.
+    file.line(result.summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     file.close();
     return result;
 }

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
-#include "slamot/rawlog/LogError.h"
+#include "GzFile.h"
 #include "slamot/run/MrptSinks.h"
 
 namespace slamot::run {
@@ -84,11 +83,7 @@ void SceneSink::end(const RunEnd& end) {
     robot->setPose(mrpt::poses::CPose3D(pose.x, pose.y, 0, pose.theta, 0, 0));
     scene.insert(robot);
 
-    const std::string file = impl_->folder + "/scene.3Dscene";
-    // MRPT picks the format by the name, so the unfinished file keeps the ending.
-    const std::string part = impl_->folder + "/scene.part.3Dscene";
-    if (!scene.saveToFile(part)) throw LogError(file + ": cannot be written");
-    std::filesystem::rename(part, file);
+    writeGzFile(scene, impl_->folder + "/scene.3Dscene");
 }
 
 }  // namespace slamot::run

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <tuple>
 
 #include "ImportedLog.h"
@@ -125,21 +127,24 @@ std::vector<ImportedLog::Detection> readDetections(const std::string& file) {
     return detections;
 }
 
-/// The n-th detection of a stamp in observations.csv is another one in the log, which is sorted by label.
-void renumber(std::vector<TrueAssociation>& associations,
-              const std::vector<ImportedLog::Detection>& detections, const std::vector<int>& indices,
-              const std::string& file) {
-    std::map<Stamp, std::vector<int>> in_log;
-    for (std::size_t i = 0; i < detections.size(); ++i) in_log[detections[i].stamp].push_back(indices[i]);
-    for (auto& row : associations) {
-        const auto found = in_log.find(row.stamp);
-        if (found == in_log.end() || row.index < 0 || row.index >= static_cast<int>(found->second.size()))
+void requireDetections(const std::vector<TrueAssociation>& associations,
+                       const std::vector<ImportedLog::Detection>& detections, const std::string& file) {
+    std::map<Stamp, int> in_stamp;
+    for (const auto& detection : detections) ++in_stamp[detection.stamp];
+    for (const auto& row : associations)
+        if (row.index < 0 || row.index >= in_stamp[row.stamp])
             throw LogError(
                 fmt::format("{}: the association at t = {} with index {} has no detection in "
                             "observations.csv",
                             file, toText(row.stamp), row.index));
-        row.index = found->second[row.index];
-    }
+}
+
+/// The n-th detection of a stamp in observations.csv is another one in the log, which is sorted by label.
+void renumber(std::vector<TrueAssociation>& associations,
+              const std::vector<ImportedLog::Detection>& detections, const std::vector<int>& indices) {
+    std::map<Stamp, std::vector<int>> in_log;
+    for (std::size_t i = 0; i < detections.size(); ++i) in_log[detections[i].stamp].push_back(indices[i]);
+    for (auto& row : associations) row.index = in_log.at(row.stamp)[row.index];
     std::stable_sort(associations.begin(), associations.end(),
                      [](const TrueAssociation& a, const TrueAssociation& b) {
                          return std::tie(a.stamp, a.index) < std::tie(b.stamp, b.index);
@@ -174,16 +179,21 @@ ImportResult importCsv(const std::string& in, const std::string& out, const Impo
     log.std_bearing = values.bearing_std;
     if (log.odometry.empty() && log.detections.empty())
         throw LogError(fmt::format("{}: odometry.csv and observations.csv hold no rows, expected data", in));
+    // All is read before anything is written.
+    std::optional<Truth> truth;
+    if (hasTruth(folder)) {
+        truth = readTruth(in);
+        requireDetections(truth->associations, log.detections, (folder / "associations.csv").string());
+    }
     const auto indices = log.write(out, progress, 0, 1);
 
     ImportResult result;
     result.files.push_back(out);
     result.notes.push_back(
         fmt::format("{} odometry readings, {} detections", log.odometry.size(), log.detections.size()));
-    if (hasTruth(folder)) {
-        Truth truth = readTruth(in);
-        renumber(truth.associations, log.detections, indices, (folder / "associations.csv").string());
-        writeTruth(truth, truthFolderOf(out));
+    if (truth) {
+        renumber(truth->associations, log.detections, indices);
+        writeTruth(*truth, truthFolderOf(out));
         result.files.push_back(truthFolderOf(out));
     } else {
         result.notes.push_back("no truth");

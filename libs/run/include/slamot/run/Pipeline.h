@@ -19,8 +19,9 @@ namespace slamot::run {
 /// Counters of a pipeline.
 struct PipelineCounts {
     std::int64_t odometry = 0, detection_sets = 0, detections = 0, scans = 0;
-    std::int64_t odometry_gaps = 0;   ///< entries longer than max_odometry_gap: bridged, and counted
-    std::int64_t extrapolated = 0;    ///< detection sets after the last odometry, reached at constant velocity
+    /// Entries longer than max_odometry_gap, and frames without a movement: bridged.
+    std::int64_t odometry_gaps = 0;
+    std::int64_t extrapolated = 0;  ///< detection sets after the last odometry, reached at constant velocity
     StageTimes times;
 };
 
@@ -51,6 +52,10 @@ class Pipeline {
         std::vector<mrpt::obs::CObservation::Ptr> scans;
     };
 
+    /// What MRPT's observation says, or nothing, counted, when it makes no sense.
+    template <class Observation>
+    auto usable(const Observation& observation) -> std::optional<decltype(fromMrpt(observation))>;
+    void pushIncrement(const OdometryIncrement& odometry);
     void pushOdometry(const OdometryReading& reading, const std::string& label);
     void pushDetections(const RangeBearingReading& reading);
     void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);

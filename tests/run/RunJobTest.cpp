@@ -1,0 +1,280 @@
+// Whole runs: from a log to an output folder.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "run/Spy.h"
+#include "slamot/rawlog/CsvTable.h"
+#include "slamot/rawlog/LogError.h"
+#include "slamot/run/RunJob.h"
+#include "support/Expect.h"
+
+namespace slamot::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const PluginRegistry& registry() {
+    static const PluginRegistry found = PluginRegistry::discover();
+    return found;
+}
+
+class RunJobTest : public FolderTest {
+  protected:
+    run::RunResult runLog(const std::string& log, const std::string& config,
+                          const std::string& out = "out") const {
+        run::RunRequest request;
+        request.config = Config::fromText(config, "my.ini");
+        request.log_file = path(log);
+        request.out_folder = path(out);
+        return run::runLog(request, registry());
+    }
+    std::vector<std::string> outputs(const std::string& out = "out") const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(path(out)))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    /// A drive along x at 1 m/s past two landmarks and beside a mover that drives along at (x + 3, 1).
+    static std::vector<mrpt::obs::CObservation::Ptr> drive() {
+        std::vector<mrpt::obs::CObservation::Ptr> log;
+        const auto seen = [](double x, const Vector2& p, std::int64_t id) {
+            return Seen{(p - Vector2(x, 0)).norm(), std::atan2(p.y(), p.x() - x), id};
+        };
+        for (int k = 0; k < 40; ++k) {
+            const double t = 0.2 * k;
+            log.push_back(odometry(t, {t, 0, 0}));
+            const double u = t + 0.07;
+            log.push_back(detections(u, "landmarks", {seen(u, {4, 3}, 1), seen(u, {9, -5}, 2)}));
+            log.push_back(detections(u, "movers", {seen(u, {u + 3, 1}, 1)}));
+        }
+        log.push_back(odometry(8, {8, 0, 0}));
+        return log;
+    }
+};
+
+TEST_F(RunJobTest, ArrivalInAnotherOrderGivesTheSameRun) {
+    auto log = drive();
+    writeLog(path("a.rawlog"), log);
+    const auto in_order = runLog("a.rawlog", "");
+    EXPECT_EQ(in_order.status, run::RunStatus::complete);
+    EXPECT_EQ(in_order.summary["counts"]["detections"], 120);
+
+    // Every entry arrives up to half a second late, in an order made from a fixed seed.
+    std::mt19937 engine(5);
+    for (int round = 0; round < 5; ++round) {
+        std::vector<std::pair<double, mrpt::obs::CObservation::Ptr>> late;
+        for (const auto& o : log)
+            late.emplace_back(
+                toStamp(o->timestamp).seconds() + 0.5 * static_cast<double>(engine()) / 4294967296.0, o);
+        std::sort(late.begin(), late.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<mrpt::obs::CObservation::Ptr> shuffled;
+        for (const auto& [arrival, o] : late) shuffled.push_back(o);
+        ASSERT_NE(shuffled, log);
+        writeLog(path("b.rawlog"), shuffled);
+        EXPECT_EQ(runLog("b.rawlog", "").estimate_hash, in_order.estimate_hash);
+    }
+    writeLog(path("c.rawlog"), {log.begin(), log.end() - 4});
+    EXPECT_NE(runLog("c.rawlog", "").estimate_hash, in_order.estimate_hash);
+}
+
+TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {
+    writeLog(path("a.rawlog"), drive());
+    runLog("a.rawlog", "");
+    EXPECT_THAT(outputs(),
+                testing::ElementsAre("correlation.bin", "estimate.rawlog", "estimate.rawlog.sha256",
+                                     "innovations.csv", "landmarks.csv", "landmarks_history.csv",
+                                     "map.landmarks.gz", "scene.3Dscene", "steps.csv", "summary.json",
+                                     "tracks.csv", "trajectory.csv", "trajectory.tum"));
+    // Again into the same folder, with less: what the second run does not write must not stay.
+    runLog("a.rawlog",
+           "[output]\ncorrelation = false\nrawlog = false\ninnovations = false\nlandmarks_history = false\n"
+           "map = false\nscene = false\nsteps = false\n");
+    EXPECT_THAT(outputs(), testing::ElementsAre("landmarks.csv", "summary.json", "tracks.csv",
+                                                "trajectory.csv", "trajectory.tum"));
+}
+
+TEST_F(RunJobTest, TheFolderReadsBackAsTheResultsRecord) {
+    writeLog(path("a.rawlog"), drive());
+    const auto result = runLog("a.rawlog", "[output]\ninterval = 0.15\n");
+    const eval::RunRecord read = eval::readRun(path("out"));
+    ASSERT_EQ(read.trajectory.size(), result.record.trajectory.size());
+    for (std::size_t i = 0; i < read.trajectory.size(); ++i) {
+        EXPECT_EQ(read.trajectory[i].stamp, result.record.trajectory[i].stamp);
+        EXPECT_EQ(read.trajectory[i].robot.mean.vector(), result.record.trajectory[i].robot.mean.vector());
+        EXPECT_EQ(read.trajectory[i].robot.covariance, result.record.trajectory[i].robot.covariance);
+    }
+    EXPECT_EQ(read.tracks.size(), result.record.tracks.size());
+    EXPECT_EQ(read.landmarks.size(), 2u);
+    EXPECT_EQ(read.innovations.size(), 120u);
+}
+
+TEST_F(RunJobTest, ALogInTheOutputFolderIsNotDestroyed) {
+    writeLog(path("a.rawlog"), drive());
+    runLog("a.rawlog", "");
+    const std::string before = textOf(path("out/estimate.rawlog"));
+    EXPECT_THAT(messageOf<LogError>([&] { runLog("out/estimate.rawlog", ""); }),
+                HasSubstr("out/estimate.rawlog"));
+    EXPECT_EQ(textOf(path("out/estimate.rawlog")), before);
+}
+
+TEST_F(RunJobTest, AnEstimateLogRunsAgainToTheSameEstimates) {
+    writeLog(path("a.rawlog"), drive());
+    const auto first = runLog("a.rawlog", "");
+    const auto again = runLog("out/estimate.rawlog", "", "out2");
+    EXPECT_EQ(again.estimate_hash, first.estimate_hash);
+    for (const auto& drop : again.summary["drops"])
+        EXPECT_EQ(drop["reason"], "unused-class-mrpt::obs::CObservationRobotPose");
+}
+
+TEST_F(RunJobTest, ALabelThatIsNoTextDoesNotLoseTheRun) {
+    auto log = drive();
+    log.insert(log.begin() + 3, detections(0.1, "caf\xe9", {{3, 0, 1}}));
+    writeLog(path("a.rawlog"), log);
+    runLog("a.rawlog", "");
+    EXPECT_TRUE(fs::exists(path("out/summary.json")));
+}
+
+TEST_F(RunJobTest, LogsWithNothingToUseAreErrorsThatSayWhatWasFound) {
+    writeLog(path("none.rawlog"), {detections(1, "landmarks", {{3, 0}}), scan(2, "laser")});
+    auto error = messageOf<LogError>([&] { runLog("none.rawlog", ""); });
+    EXPECT_THAT(error, HasSubstr("none.rawlog"));
+    EXPECT_THAT(error, HasSubstr("no odometry"));
+    EXPECT_THAT(error, HasSubstr("1 of 'landmarks' (before-odometry)"));
+
+    writeLog(path("odo.rawlog"), {odometry(1, {}), odometry(2, {}), detections(1.5, "camera", {{3, 0}})});
+    error = messageOf<LogError>([&] { runLog("odo.rawlog", ""); });
+    EXPECT_THAT(error, HasSubstr("no detection that ekf_slamot can use"));
+    EXPECT_THAT(error, HasSubstr("1 of 'camera' (no-role-in-[sensors])"));
+    EXPECT_EQ(runLog("odo.rawlog", "[run]\nestimator = dead_reckoning\n").status, run::RunStatus::complete);
+
+    error = messageOf<LogError>([&] { runLog("odo.rawlog", "[run]\nodometry = wheels\n"); });
+    EXPECT_THAT(error, HasSubstr("2 of 'odometry' (other-odometry)"));
+}
+
+TEST_F(RunJobTest, EveryPluginsFullConfigRuns) {
+    writeLog(path("a.rawlog"), drive());
+    for (const PluginInfo& plugin : registry().plugins()) {
+        if (plugin.kind != "estimator") continue;
+        EXPECT_EQ(runLog("a.rawlog", run::fullConfigText(plugin.name, registry())).status,
+                  run::RunStatus::complete);
+    }
+}
+
+TEST_F(RunJobTest, AStopKeepsWhatWasDone) {
+    writeLog(path("a.rawlog"), drive());
+    std::atomic<bool> stop{false};
+    int calls = 0;
+    run::RunRequest request;
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.stop = &stop;
+    request.progress = [&](double) { stop = ++calls > 0; };  // told every few entries
+    const auto result = run::runLog(request, registry());
+    EXPECT_EQ(result.status, run::RunStatus::stopped);
+    EXPECT_EQ(result.summary["status"], "stopped");
+    EXPECT_LT(result.summary["counts"]["detections"], 120);
+    EXPECT_GT(eval::readRun(path("out")).trajectory.size(), 5u);
+    for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+}
+
+using Table = std::vector<std::vector<double>>;
+
+/// Paper 1's golden run (tests/data/golden/paper1): the same inputs as
+/// tests/core/estimation/GoldenRunTest.cpp, but written into a rawlog and taken all the way through reader,
+/// pipeline, plugin and files.
+class GoldenRawlogTest : public RunJobTest, public testing::WithParamInterface<const char*> {
+  protected:
+    static constexpr double dt = 0.15, wheelbase = 4;
+
+    static Table golden(const std::string& name) {
+        CsvReader csv(std::string(SLAMOT_SOURCE_DIR) + "/tests/data/golden/paper1/" + name);
+        Table rows;
+        while (csv.next()) {
+            rows.emplace_back();
+            for (std::size_t i = 0; i < csv.header().size(); ++i)
+                rows.back().push_back(csv.number(static_cast<int>(i)));
+        }
+        return rows;
+    }
+
+    void writeGoldenLog() const {
+        const Table truth = golden("truth.csv"), observations = golden("observations.csv");
+        std::map<int, std::vector<Seen>> landmarks, targets;
+        for (const auto& row : observations) {
+            const bool target = row[1] < 0;
+            (target ? targets : landmarks)[static_cast<int>(row[0])].push_back(
+                {row[2], row[3], target ? 0 : static_cast<std::int64_t>(row[1])});
+        }
+        std::vector<mrpt::obs::CObservation::Ptr> log;
+        for (int k = 0; k <= 200; ++k) {
+            const double v = truth[k][10], gamma = truth[k][11];
+            log.push_back(odometry(
+                k * dt, {}, "odometry",
+                BodyVelocity{v * std::cos(gamma), v * std::sin(gamma), v * std::sin(gamma) / wheelbase}));
+            log.push_back(detections(k * dt, "landmarks", landmarks[k], 0.1, 0.05));
+            if (!targets[k].empty()) log.push_back(detections(k * dt, "movers", targets[k], 0.1, 0.05));
+        }
+        writeLog(path("golden.rawlog"), log);
+    }
+};
+
+/// Ranges and bearings are floats in a log: the golden run's makers state 1e-4.
+void expectNear(double value, double expected, const std::string& what) {
+    EXPECT_NEAR(value, expected, 1e-4 * std::max(1.0, std::abs(expected))) << what;
+}
+
+TEST_P(GoldenRawlogTest, AgreesWithTheTrace) {
+    writeGoldenLog();
+    run::RunRequest request;
+    request.config = Config::fromFile(std::string(SLAMOT_SOURCE_DIR) + "/config/runs/paper1_ekf.ini");
+    request.config.set("ekf_slamot", "consistency", GetParam());
+    // The log's claims are floats too: 0.1f is 1.5e-9 off, 0.05f 7.5e-10.
+    request.log_file = path("golden.rawlog");
+    request.out_folder = path("out");
+    run::runLog(request, registry());
+
+    const eval::RunRecord run = eval::readRun(path("out"));
+    const Table expected = golden(std::string("expect_ekf_true_mode_") + GetParam() + ".csv");
+    ASSERT_EQ(run.trajectory.size(), 201u);
+    CsvReader steps(path("out/steps.csv"));
+    const int landmark_count = steps.column("landmarks");
+    for (std::size_t k = 0; k <= 200; ++k) {
+        const auto& row = expected[k];
+        const std::string where = "step " + std::to_string(k);
+        const auto& [robot, covariance] = run.trajectory[k].robot;
+        EXPECT_EQ(run.trajectory[k].stamp, at(static_cast<double>(k) * dt));
+        for (int i = 0; i < 3; ++i) expectNear(robot.vector()(i), row[1 + i], where);
+        for (int i = 0; i < 3; ++i) expectNear(covariance(i, i), row[10 + i], where);
+        const TrackEstimate& target = run.tracks.at(run.trajectory[k].stamp).at(0);
+        for (int i = 0; i < 6; ++i) expectNear(target.mean(i), row[4 + i], where);
+        for (int i = 0; i < 6; ++i) expectNear(target.covariance(i, i), row[13 + i], where);
+        ASSERT_TRUE(steps.next());
+        EXPECT_EQ(9 + 2 * steps.integer(landmark_count), static_cast<std::int64_t>(row[21])) << where;
+        if (HasFailure()) break;
+    }
+
+    std::map<std::int64_t, std::vector<double>> map;
+    for (const auto& row : golden(std::string("expect_ekf_true_mode_") + GetParam() + "_map.csv"))
+        map[static_cast<std::int64_t>(row[0])] = row;
+    ASSERT_EQ(run.landmarks.size(), map.size());
+    for (const LandmarkEstimate& l : run.landmarks) {
+        const auto& row = map.at(l.source.value);
+        const std::string where = "landmark " + std::to_string(l.source.value);
+        expectNear(l.mean.x(), row[2], where);
+        expectNear(l.mean.y(), row[3], where);
+        expectNear(l.covariance(0, 0), row[4], where);
+        expectNear(l.covariance(1, 1), row[5], where);
+        expectNear(l.covariance(0, 1), row[6], where);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Paper1, GoldenRawlogTest, testing::Values("classic", "invariant"));
+
+}  // namespace
+}  // namespace slamot::test

@@ -1,0 +1,3 @@
+#include "run/Spy.h"
+
+IMPLEMENTS_MRPT_OBJECT(Spy, Estimator, slamot)
