@@ -32,9 +32,7 @@ class Block {
 };
 
 std::string cell(double value) {
-    if (std::isnan(value)) return "-";
-    const std::string text = fmt::format("{:.4g}", value);
-    return text.size() <= 8 ? text : fmt::format("{:.2g}", value);
+    return std::isnan(value) ? "-" : fmt::format("{:.4g}", value);
 }
 std::string percent(double part) {
     return std::isnan(part) ? "-" : fmt::format("{:.1f} %", 100 * part);
