@@ -10,6 +10,7 @@
 #include "ObjectReader.h"
 #include "ReorderQueue.h"
 #include "slamot/rawlog/Conventions.h"
+#include "slamot/rawlog/LogError.h"
 
 namespace slamot {
 
@@ -128,17 +129,26 @@ struct RawlogReader::Impl {
         const Stamp stamp = timeOf(frame);
         if (frame.action) {
             if (const auto movement = frame.action->getBestMovementEstimation()) {
-                OdometryIncrement increment = fromMrpt(*movement);
-                increment.t0 = previous.value_or(later(stamp, -parameters.step));
-                increment.t1 = stamp;
-                increment.entry_seconds = increment.seconds();
-                ready.push_back({stamp, nullptr, increment, frame.position});
+                unpackMovement(*movement, stamp, frame.position);
             } else if (frame.action->size() > 0) {
                 drops.add("", "not-planar-odometry");
             }
         }
         if (frame.observations) unpackObservations(*frame.observations, stamp, frame.position);
         previous = stamp;
+    }
+
+    void unpackMovement(const mrpt::obs::CActionRobotMovement2D& movement, Stamp stamp,
+                        std::int64_t position) {
+        try {
+            OdometryIncrement increment = fromMrpt(movement);
+            increment.t0 = previous.value_or(later(stamp, -parameters.step));
+            increment.t1 = stamp;
+            increment.entry_seconds = increment.seconds();
+            ready.push_back({stamp, nullptr, increment, position});
+        } catch (const LogError&) {
+            drops.add("", "unusable");
+        }
     }
 
     void unpackObservations(const mrpt::obs::CSensoryFrame& observations, Stamp stamp,
