@@ -6,8 +6,8 @@ namespace slamot {
 
 std::vector<ParameterTable> EkfSlamot::onParameters() {
     std::vector<ParameterTable> tables{describe(motion_)};
-    for (ParameterTable& table :
-         describe(parameters_, "ekf_slamot", "Joint EKF over robot, movers and landmarks (paper 1, section 2.2)."))
+    for (ParameterTable& table : describe(
+             parameters_, "ekf_slamot", "Joint EKF over robot, movers and landmarks (paper 1, section 2.2)."))
         tables.push_back(std::move(table));
     return tables;
 }

@@ -10,13 +10,13 @@ namespace slamot {
 class EkfSlamot : public Estimator {
     DEFINE_MRPT_OBJECT(EkfSlamot, slamot)
 
-   public:
+  public:
     std::string name() const override { return "ekf_slamot"; }
     std::string missingInOdometry(const OdometryIncrement& odometry) const override {
         return missingField(motion_, odometry);
     }
 
-   protected:
+  protected:
     std::vector<ParameterTable> onParameters() override;
     void onStart(const Start& start) override;
     void onPredict(const OdometryIncrement& odometry) override { filter_->predict(odometry); }
@@ -30,7 +30,7 @@ class EkfSlamot : public Estimator {
     std::int64_t onLandmarkCount() const override { return filter_->landmarkCount(); }
     JointCovariance onJointCovariance() const override { return filter_->jointCovariance(); }
 
-   private:
+  private:
     RobotMotionParameters motion_;
     JointFilterParameters parameters_;
     std::unique_ptr<JointFilter> filter_;

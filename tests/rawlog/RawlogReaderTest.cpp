@@ -3,7 +3,7 @@
 #include <mrpt/obs/CRawlog.h>
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 #include <random>
 
 #include "rawlog/TestLogs.h"
@@ -190,6 +190,22 @@ TEST_F(Reader, FramesWithRisingStampsKeepThem) {
     while (reader.next()) {
     }
     EXPECT_EQ(reader.drops().rows().at({"odometry", "odometry-within-frame"}), 3);
+}
+
+TEST_F(Reader, AMovementThatIsNotFiniteIsAnError) {
+    RawlogWriter writer(path("a.rawlog"));
+    writer.writeFrame(action(1), frame({scanAt(1)}));
+    writer.writeFrame(action(std::numeric_limits<double>::quiet_NaN()), frame({scanAt(2)}));
+    writer.close();
+    RawlogReader reader(path("a.rawlog"), {});
+    EXPECT_TRUE(reader.next());
+    EXPECT_TRUE(reader.next());
+    try {
+        reader.next();
+        FAIL() << "expected a LogError";
+    } catch (const LogError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("a.rawlog: object 2: "));
+    }
 }
 
 TEST_F(Reader, MrptsOwnDemoLog) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <string>
 
@@ -15,16 +14,16 @@ template <class A, class B>
 testing::AssertionResult near(const Eigen::MatrixBase<A>& value, const Eigen::MatrixBase<B>& expected,
                               double tolerance) {
     if (value.rows() != expected.rows() || value.cols() != expected.cols())
-        return testing::AssertionFailure() << "sizes differ: " << value.rows() << "x" << value.cols() << " and "
-                                           << expected.rows() << "x" << expected.cols();
+        return testing::AssertionFailure() << "sizes differ: " << value.rows() << "x" << value.cols()
+                                           << " and " << expected.rows() << "x" << expected.cols();
     if (value.size() == 0) return testing::AssertionSuccess();
     const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
     const double difference = (value - expected).cwiseAbs().maxCoeff();
     if (difference <= tolerance * scale) return testing::AssertionSuccess();  // also refuses NaN
-    return testing::AssertionFailure() << "largest difference " << difference << " above " << tolerance * scale
-                                       << "\nvalue\n"
-                                       << value << "\nexpected\n"
-                                       << expected;
+    return testing::AssertionFailure()
+           << "largest difference " << difference << " above " << tolerance * scale << "\nvalue\n"
+           << value << "\nexpected\n"
+           << expected;
 }
 
 /// What `action` throws as an `Error`; fails the test when it throws nothing or something else.

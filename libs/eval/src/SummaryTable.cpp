@@ -23,7 +23,7 @@ class Block {
   private:
     static std::string line(const std::string& name, const std::vector<std::string>& cells) {
         std::string text = fmt::format("{:<32.32}", name);
-        for (const std::string& cell : cells) text += fmt::format("{:>9}", cell);
+        for (const std::string& cell : cells) text += fmt::format(" {:>8}", cell);
         return text + "\n";
     }
     std::string title_;
@@ -32,7 +32,9 @@ class Block {
 };
 
 std::string cell(double value) {
-    return std::isnan(value) ? "-" : fmt::format("{:.4g}", value);
+    if (std::isnan(value)) return "-";
+    const std::string text = fmt::format("{:.4g}", value);
+    return text.size() <= 8 ? text : fmt::format("{:.2g}", value);
 }
 std::string percent(double part) {
     return std::isnan(part) ? "-" : fmt::format("{:.1f} %", 100 * part);

@@ -1,14 +1,12 @@
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <vector>
 
 #include "slamot/rawlog/LogError.h"
 #include "slamot/rawlog/RawlogWriter.h"
+#include "slamot/rawlog/Sha256.h"
 
 namespace slamot {
 
@@ -16,20 +14,14 @@ std::string sha256OfFile(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     if (!std::filesystem::is_regular_file(file) || !in)
         throw LogError(fmt::format("{}: cannot be opened to compute its checksum", file));
-    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-    EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+    Sha256 sum;
     std::vector<char> buffer(1 << 16);
     while (in) {
         in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-        EVP_DigestUpdate(context.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
+        sum.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
     }
     if (in.bad()) throw LogError(fmt::format("{}: cannot be read to compute its checksum", file));
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int length = 0;
-    EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-    std::string hex;
-    for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-    return hex;
+    return sum.hex();
 }
 
 Checksum checkChecksum(const std::string& file) {

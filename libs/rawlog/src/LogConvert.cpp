@@ -102,13 +102,21 @@ class FrameSink : public LogSink {
   protected:
     /// A frame without a movement gets an empty action, since MRPT reads pairs.
     void write(const CActionRobotMovement2D::Ptr& action, const std::vector<CObservation::Ptr>& seen) {
-        mrpt::obs::CActionCollection actions;
-        if (action) actions.insert(*action);
         mrpt::obs::CSensoryFrame frame;
         for (const auto& observation : seen) frame.insert(observation);
-        writer_.writeFrame(actions, frame);
+        writer_.writeFrame(collection(action), frame);
         result_.observations += static_cast<std::int64_t>(seen.size());
+    }
+
+    /// The way after the last observation. It gets no sensory frame, since kf-slam fails at an empty one.
+    void writeLast(const CActionRobotMovement2D::Ptr& action) { writer_.writeAction(collection(action)); }
+
+  private:
+    mrpt::obs::CActionCollection collection(const CActionRobotMovement2D::Ptr& action) {
+        mrpt::obs::CActionCollection actions;
+        if (action) actions.insert(*action);
         if (action) ++result_.odometry;
+        return actions;
     }
 };
 
@@ -136,7 +144,7 @@ class FramesFromReadings : public FrameSink {
         waiting_.clear();
         if (!last_) return;
         const Pose2 rest = inverse(moved_to_) * last_->pose;
-        if (rest.x != 0 || rest.y != 0 || rest.theta != 0) write(actionOf(rest, last_->stamp), {});
+        if (rest.x != 0 || rest.y != 0 || rest.theta != 0) writeLast(actionOf(rest, last_->stamp));
     }
 
   private:
@@ -195,7 +203,7 @@ class FramesFromIncrements : public FrameSink {
     using FrameSink::FrameSink;
 
     void take(const LogEntry& entry) override {
-        if (entry.increment || (stamp_ && entry.stamp != *stamp_)) finish();
+        if (entry.increment || (stamp_ && entry.stamp != *stamp_)) flush();
         stamp_ = entry.stamp;
         if (entry.increment)
             action_ = actionOf(*entry.increment);
@@ -204,12 +212,19 @@ class FramesFromIncrements : public FrameSink {
     }
 
     void finish() override {
+        if (action_ && seen_.empty())
+            writeLast(action_);
+        else
+            flush();
+    }
+
+  private:
+    void flush() {
         if (action_ || !seen_.empty()) write(action_, seen_);
         action_.reset();
         seen_.clear();
     }
 
-  private:
     std::optional<Stamp> stamp_;
     CActionRobotMovement2D::Ptr action_;
     std::vector<CObservation::Ptr> seen_;

@@ -1,5 +1,6 @@
 #include "slamot/rawlog/RawlogReader.h"
 
+#include <fmt/format.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
@@ -35,8 +36,8 @@ std::int64_t DropTable::total() const {
 }
 
 struct RawlogReader::Impl {
-    Impl(const std::string& file, const LogParameters& log_parameters)
-        : parameters(log_parameters), objects(file), queue(log_parameters.reorder_window) {
+    Impl(const std::string& file_name, const LogParameters& log_parameters)
+        : file(file_name), parameters(log_parameters), objects(file), queue(log_parameters.reorder_window) {
         // The first object that is part of a log tells the format.
         while ((held = objects.next()) && !isAction(*held) && !isFrame(*held) && !isObservation(*held))
             dropOther(*held);
@@ -128,8 +129,12 @@ struct RawlogReader::Impl {
     void unpack(const ActionFrame& frame) {
         const Stamp stamp = timeOf(frame);
         if (frame.action) {
-            if (const auto movement = frame.action->getBestMovementEstimation()) {
-                unpackMovement(*movement, stamp, frame.position);
+            if (const auto movement = movementOf(*frame.action)) {
+                OdometryIncrement increment = incrementOf(*movement, frame.position);
+                increment.t0 = previous.value_or(later(stamp, -parameters.step));
+                increment.t1 = stamp;
+                increment.entry_seconds = increment.seconds();
+                ready.push_back({stamp, nullptr, increment, frame.position});
             } else if (frame.action->size() > 0) {
                 drops.add("", "not-planar-odometry");
             }
@@ -138,16 +143,18 @@ struct RawlogReader::Impl {
         previous = stamp;
     }
 
-    void unpackMovement(const mrpt::obs::CActionRobotMovement2D& movement, Stamp stamp,
-                        std::int64_t position) {
+    static mrpt::obs::CActionRobotMovement2D::Ptr movementOf(const mrpt::obs::CActionCollection& action) {
+        if (const auto best = action.getBestMovementEstimation()) return best;
+        // MRPT passes over a movement whose uncertainty is no number.
+        return action.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+    }
+
+    OdometryIncrement incrementOf(const mrpt::obs::CActionRobotMovement2D& movement,
+                                  std::int64_t position) const {
         try {
-            OdometryIncrement increment = fromMrpt(movement);
-            increment.t0 = previous.value_or(later(stamp, -parameters.step));
-            increment.t1 = stamp;
-            increment.entry_seconds = increment.seconds();
-            ready.push_back({stamp, nullptr, increment, position});
-        } catch (const LogError&) {
-            drops.add("", "unusable");
+            return fromMrpt(movement);
+        } catch (const LogError& error) {
+            throw LogError(fmt::format("{}: object {}: {}", file, position, error.what()));
         }
     }
 
@@ -172,6 +179,7 @@ struct RawlogReader::Impl {
         }
     }
 
+    std::string file;
     LogParameters parameters;
     ObjectReader objects;
     std::optional<LogObject> held;

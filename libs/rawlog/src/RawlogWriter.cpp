@@ -42,6 +42,10 @@ void RawlogWriter::writeFrame(const mrpt::obs::CActionCollection& action,
     impl_->write(observations);
 }
 
+void RawlogWriter::writeAction(const mrpt::obs::CActionCollection& action) {
+    impl_->write(action);
+}
+
 void RawlogWriter::close() {
     impl_->bytes.close();
     // The old checksum goes first, so that a crash in between leaves a log without one, not with a wrong one.

@@ -1,7 +1,5 @@
 #include "slamot/run/RecordSinks.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,49 +17,26 @@ void RunRecorder::step(const Step& step) {
     if (!step.estimate.tracks.empty()) record_.tracks[step.estimate.stamp] = step.estimate.tracks;
 }
 
-struct EstimateHash::Impl {
-    EVP_MD_CTX* context = EVP_MD_CTX_new();
-    ~Impl() { EVP_MD_CTX_free(context); }
-    template <class T>
-    void add(const T* data, std::size_t count) {
-        EVP_DigestUpdate(context, data, count * sizeof(T));
-    }
-    void add(std::int64_t value) { add(&value, 1); }
-};
-
-EstimateHash::EstimateHash() : impl_(std::make_unique<Impl>()) {
-    EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr);
-}
-
-EstimateHash::~EstimateHash() = default;
-
 void EstimateHash::step(const Step& step) {
-    impl_->add(step.estimate.stamp.ticks);
-    impl_->add(step.estimate.robot.mean.vector().data(), 3);
-    impl_->add(step.estimate.robot.covariance.data(), 9);
+    addInteger(step.estimate.stamp.ticks);
+    addNumbers(step.estimate.robot.mean.vector().data(), 3);
+    addNumbers(step.estimate.robot.covariance.data(), 9);
     for (const TrackEstimate& track : step.estimate.tracks) {
-        impl_->add(track.id.value);
-        impl_->add(track.mean.data(), 6);
-        impl_->add(track.covariance.data(), 36);
-        impl_->add(&track.existence, 1);
-        impl_->add(track.mode_probabilities.data(), track.mode_probabilities.size());
+        addInteger(track.id.value);
+        addNumbers(track.mean.data(), 6);
+        addNumbers(track.covariance.data(), 36);
+        addNumbers(&track.existence, 1);
+        addNumbers(track.mode_probabilities.data(), track.mode_probabilities.size());
     }
 }
 
 void EstimateHash::end(const RunEnd& end) {
     for (const LandmarkEstimate& landmark : end.landmarks) {
-        impl_->add(landmark.id.value);
-        impl_->add(landmark.mean.data(), 2);
-        impl_->add(landmark.covariance.data(), 4);
+        addInteger(landmark.id.value);
+        addNumbers(landmark.mean.data(), 2);
+        addNumbers(landmark.covariance.data(), 4);
     }
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned size = 0;
-    EVP_DigestFinal_ex(impl_->context, digest, &size);
-    for (unsigned i = 0; i < size; ++i) {
-        constexpr const char* digits = "0123456789abcdef";
-        hex_ += digits[digest[i] >> 4];
-        hex_ += digits[digest[i] & 15];
-    }
+    hex_ = sum_.hex();
 }
 
 void StepTimer::step(const Step& step) {

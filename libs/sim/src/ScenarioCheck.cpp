@@ -55,6 +55,7 @@ void checkMover(const MoverParameters& mover) {
     if (mover.model == MoverModel::waypoint && mover.path.empty()) {
         fail(section, "model = waypoint needs the key 'path', such as 0,0 10,0 10,10");
     }
+    if (mover.id.value >= robot_id_base) fail(section, "has an id of a million or more: those are robots");
     if (mover.min_speed > mover.max_speed) fail(section, "has min_speed above max_speed");
     if (mover.vanish <= mover.appear) fail(section, "vanishes before it appears");
 }

@@ -87,7 +87,7 @@ ParameterTable describe(MoverParameters& m) {
     t.real("max_speed", m.max_speed, "m/s", from_zero, "drawn velocity.");
     addPoint(t, "acceleration", m.acceleration, "m/s^2", "ca: at the start.");
     t.real("appear", m.appear, "s", from_zero, "after the start of the log.");
-    t.real("vanish", m.vanish, "s", Interval::positive(), "after the start of the log; gone from then on.");
+    t.real("vanish", m.vanish, "s", Interval::positiveOrInfinite(), "after the start of the log; gone from then on.");
     addBox(t, "arena", m.arena, "a trajectory that leaves it is drawn again as a whole.");
     t.integer("max_redraws", m.max_redraws, {0, max_count}, "after so many the scenario is an error.");
     return t;

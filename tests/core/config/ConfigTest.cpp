@@ -1,5 +1,3 @@
-#include "slamot/core/config/Config.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "slamot/core/config/Config.h"
+#include "slamot/core/data/Angle.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -25,7 +25,8 @@ std::string value(const Config& config, const std::string& section, const std::s
 }
 
 TEST(ConfigTest, ReadsSectionsKeysAndPlaces) {
-    const auto config = Config::fromText("# about\n[run]\nestimator = ekf // why\n\n  ; note\n[a.b] ; part\n x=1=2\n", "my.ini");
+    const auto config = Config::fromText(
+        "# about\n[run]\nestimator = ekf // why\n\n  ; note\n[a.b] ; part\n x=1=2\n", "my.ini");
     EXPECT_EQ(config.sectionNames(), (std::vector<std::string>{"a.b", "run"}));
     EXPECT_EQ(value(config, "run", "estimator"), "ekf");
     EXPECT_EQ(config.section("run").at("estimator").origin, "my.ini:3");
@@ -80,7 +81,7 @@ TEST(ConfigTest, RefusesDoublesWithBothLines) {
 }
 
 class ConfigFileTest : public testing::Test {
-   protected:
+  protected:
     ConfigFileTest() { std::filesystem::create_directories(folder_); }
     ~ConfigFileTest() override { std::filesystem::remove_all(folder_); }
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -91,10 +92,11 @@ class ConfigFileTest : public testing::Test {
         return messageOf<ConfigError>([&] { Config::fromFile(path); });
     }
 
-   private:
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                    ("slamot_config_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+  private:
+    std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        ("slamot_config_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
+         testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(ConfigFileTest, ReadsAFileAndItsFolder) {
@@ -109,7 +111,9 @@ TEST_F(ConfigFileTest, ReadsAFileAndItsFolder) {
 TEST_F(ConfigFileTest, RefusesWhatIsNoFile) {
     EXPECT_EQ(refusalOf(path("none.ini")), path("none.ini") + ": no such config file");
     EXPECT_THAT(refusalOf(path("")), HasSubstr("config file"));
-    write("program", std::string("\x7f" "ELF\0\0\1", 7));
+    write("program", std::string("\x7f"
+                                 "ELF\0\0\1",
+                                 7));
     EXPECT_THAT(refusalOf(path("program")), AllOf(HasSubstr(path("program")), HasSubstr("binary")));
 }
 
@@ -135,7 +139,8 @@ TEST(ConfigTest, AssignmentsSplitAtTheFirstEqualsAndTheLastDotBeforeIt) {
 }
 
 TEST(ConfigTest, CanonicalTextForgetsOrderAndComments) {
-    const auto a = Config::fromText("[b]\ny = 2\nx = 1 // one\n[a]\nz=3\n"), b = Config::fromText("[a]\nz = 3\n[b]\nx=1\ny=2\n");
+    const auto a = Config::fromText("[b]\ny = 2\nx = 1 // one\n[a]\nz=3\n"),
+               b = Config::fromText("[a]\nz = 3\n[b]\nx=1\ny=2\n");
     EXPECT_EQ(a.canonicalText(), "[a]\nz = 3\n[b]\nx = 1\ny = 2\n");
     EXPECT_EQ(a.canonicalText(), b.canonicalText());
 }
@@ -143,7 +148,8 @@ TEST(ConfigTest, CanonicalTextForgetsOrderAndComments) {
 TEST(ConfigTest, LoadTakesWhatIsThereAndKeepsDefaults) {
     double speed = 1, angle = 2;
     ParameterTable table("robot", "A robot.");
-    table.real("speed", speed, "m/s", Interval::positive(), "Speed.").real("angle_deg", angle, "deg", Interval::any(), "");
+    table.real("speed", speed, "m/s", Interval::positive(), "Speed.")
+        .real("angle_deg", angle, "deg", Interval::any(), "");
     load(table, Config::fromText("[robot]\nangle_deg = 90\n[other]\nx = 1\n"));
     EXPECT_EQ(speed, 1);
     EXPECT_EQ(angle, pi / 2);
@@ -155,16 +161,22 @@ TEST(ConfigTest, LoadNamesFileLineKeyAndWhatWasExpected) {
     double speed = 1;
     int count = 1;
     ParameterTable table("robot", "A robot.");
-    table.real("max_speed", speed, "m/s", Interval::positive(), "").integer("count", count, Interval::between(1, 9), "");
+    table.real("max_speed", speed, "m/s", Interval::positive(), "")
+        .integer("count", count, Interval::between(1, 9), "");
     const auto loading = [&](const std::string& line) {
-        return messageOf<ConfigError>([&] { load(table, Config::fromText("[robot]\n" + line + "\n", "my.ini")); });
+        return messageOf<ConfigError>(
+            [&] { load(table, Config::fromText("[robot]\n" + line + "\n", "my.ini")); });
     };
-    EXPECT_EQ(loading("max_sped = 1"), "my.ini:2: unknown key 'max_sped' in [robot]; did you mean 'max_speed'?");
+    EXPECT_EQ(loading("max_sped = 1"),
+              "my.ini:2: unknown key 'max_sped' in [robot]; did you mean 'max_speed'?");
     EXPECT_EQ(loading("zebra = 1"), "my.ini:2: unknown key 'zebra' in [robot]");
-    EXPECT_EQ(loading("max_speed = fast"), "my.ini:2: max_speed = 'fast' in [robot], expected a number [m/s] above 0");
-    EXPECT_EQ(loading("max_speed = 0"), "my.ini:2: max_speed = '0' in [robot], expected a number [m/s] above 0");
+    EXPECT_EQ(loading("max_speed = fast"),
+              "my.ini:2: max_speed = 'fast' in [robot], expected a number [m/s] above 0");
+    EXPECT_EQ(loading("max_speed = 0"),
+              "my.ini:2: max_speed = '0' in [robot], expected a number [m/s] above 0");
     EXPECT_EQ(loading("max_speed ="), "my.ini:2: max_speed = '' in [robot], expected a number [m/s] above 0");
-    EXPECT_EQ(loading("count = 3.9"), "my.ini:2: count = '3.9' in [robot], expected a whole number in [1, 9]");
+    EXPECT_EQ(loading("count = 3.9"),
+              "my.ini:2: count = '3.9' in [robot], expected a whole number in [1, 9]");
     Config set;
     set.setFromAssignment("robot.count=10");
     EXPECT_EQ(messageOf<ConfigError>([&] { load(table, set); }),
@@ -175,7 +187,9 @@ TEST(ConfigTest, LoadNamesFileLineKeyAndWhatWasExpected) {
 
 TEST(ConfigTest, UnknownSectionsAreRefusedWithTheNearest) {
     const auto config = Config::fromText("[run]\n[ekf_slamod]\n[sensors.front]\n", "my.ini");
-    EXPECT_EQ(messageOf<ConfigError>([&] { requireKnownSections(config, {"run", "ekf_slamot"}, {"sensors."}); }),
+    EXPECT_EQ(messageOf<ConfigError>([&] {
+                  requireKnownSections(config, {"run", "ekf_slamot"}, {"sensors."});
+              }),
               "my.ini:2: unknown section [ekf_slamod]; did you mean 'ekf_slamot'?");
     EXPECT_NO_THROW(requireKnownSections(config, {"run", "ekf_slamod"}, {"sensors."}));
 }

@@ -1,5 +1,3 @@
-#include "slamot/core/config/Parameters.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "slamot/core/config/Config.h"
+#include "slamot/core/config/Parameters.h"
 #include "slamot/core/data/Angle.h"
 #include "slamot/core/random/RandomStream.h"
 
@@ -35,7 +34,7 @@ struct Everything {
         ParameterTable t("all", "All kinds.");
         t.real("number", number, "m", Interval::any(), "A number.")
             .real("angle_deg", angle, "deg", Interval::any(), "An angle.")
-            .real("limit", limit, "s", Interval::positive(), "A limit.")
+            .real("limit", limit, "s", Interval::positiveOrInfinite(), "A limit.")
             .optionalReal("maybe", maybe, "m", Interval::nonNegative(), "Perhaps a number.")
             .reals("list", list, "-", Interval::any(), "Numbers.")
             .reals("angles_deg", angles, "deg", Interval::any(), "Angles.")
@@ -47,9 +46,9 @@ struct Everything {
         return t;
     }
     bool operator==(const Everything& o) const {
-        return number == o.number && angle == o.angle && limit == o.limit && maybe == o.maybe && list == o.list &&
-               angles == o.angles && count == o.count && seed == o.seed && flag == o.flag && words == o.words &&
-               colour == o.colour;
+        return number == o.number && angle == o.angle && limit == o.limit && maybe == o.maybe &&
+               list == o.list && angles == o.angles && count == o.count && seed == o.seed && flag == o.flag &&
+               words == o.words && colour == o.colour;
     }
 };
 
@@ -77,7 +76,8 @@ TEST(ParametersTest, IniIsCommented) {
     double speed = 2;
     ParameterTable table("robot", "A robot.");
     table.real("speed", speed, "m/s", Interval::positive(), "How fast.");
-    EXPECT_EQ(toIni(table), "# A robot.\n[robot]\n# How fast. Expected: a number [m/s] above 0.\nspeed = 2\n");
+    EXPECT_EQ(toIni(table),
+              "# A robot.\n[robot]\n# How fast. Expected: a number [m/s] above 0.\nspeed = 2\n");
 }
 
 double randomNumber(RandomStream& random) {
@@ -109,7 +109,8 @@ TEST(ParametersTest, AnglesRoundTripToTheSameBits) {
     Everything fields;
     const ParameterTable table = fields.table();
     for (int i = 0; i < 100000; ++i) {
-        const double value = i % 2 ? random.uniform(-pi, pi) : random.normal() * std::exp(random.uniform(-30, 10));
+        const double value =
+            i % 2 ? random.uniform(-pi, pi) : random.normal() * std::exp(random.uniform(-30, 10));
         fields.angle = value;
         const std::string text = table.find("angle_deg")->print();
         ASSERT_FALSE(table.find("angle_deg")->parse(text)) << text;
@@ -130,32 +131,41 @@ TEST(ParametersTest, AnglesPrintAsAPersonWouldWriteThem) {
 TEST(ParametersTest, RefusesNumbersThatDoNotParseWhole) {
     Everything fields;
     for (const char* key : {"number", "angle_deg", "limit", "maybe", "list", "count", "seed"})
-        for (const char* text : {"abc", "1e", "nan", "1,5x", "3.9.1", "1 2", "0x10", "--1", "+-1", "1e999", "-", "+", "e5"})
+        for (const char* text :
+             {"abc", "1e", "nan", "1,5x", "3.9.1", "1 2", "0x10", "--1", "+-1", "1e999", "-", "+", "e5"})
             EXPECT_TRUE(parse(fields.table(), key, text)) << key << " '" << text << "'";
     for (const char* key : {"number", "limit", "maybe", "count", "seed"}) {
         EXPECT_TRUE(parse(fields.table(), key, "1,5")) << key;
         EXPECT_TRUE(parse(fields.table(), key, "")) << key;
     }
-    for (const char* text : {"3.9", "1e3", "99999999999", "3."}) EXPECT_TRUE(parse(fields.table(), "count", text));
-    for (const char* text : {"-1", "1.5", "18446744073709551616"}) EXPECT_TRUE(parse(fields.table(), "seed", text));
-    for (const char* text : {"1,", ",1", "1,,2", ","}) EXPECT_TRUE(parse(fields.table(), "list", text)) << text;
-    for (const char* text : {"yes", "1", "True", ""}) EXPECT_TRUE(parse(fields.table(), "flag", text)) << text;
+    for (const char* text : {"3.9", "1e3", "99999999999", "3."})
+        EXPECT_TRUE(parse(fields.table(), "count", text));
+    for (const char* text : {"-1", "1.5", "18446744073709551616"})
+        EXPECT_TRUE(parse(fields.table(), "seed", text));
+    for (const char* text : {"1,", ",1", "1,,2", ","})
+        EXPECT_TRUE(parse(fields.table(), "list", text)) << text;
+    for (const char* text : {"yes", "1", "True", ""})
+        EXPECT_TRUE(parse(fields.table(), "flag", text)) << text;
     EXPECT_TRUE(fields == Everything()) << "a refused text changes nothing";
 }
 
 TEST(ParametersTest, TakesNumbersInAllUsualForms) {
     Everything fields;
     const ParameterTable table = fields.table();
-    for (const auto& [text, value] : {std::pair{"1.5", 1.5}, {"+1.5", 1.5}, {" 2 ", 2.0}, {"1e-3", 1e-3}, {".5", .5}, {"-7", -7.}}) {
+    for (const auto& [text, value] :
+         {std::pair{"1.5", 1.5}, {"+1.5", 1.5}, {" 2 ", 2.0}, {"1e-3", 1e-3}, {".5", .5}, {"-7", -7.}}) {
         EXPECT_FALSE(table.find("number")->parse(text)) << text;
         EXPECT_EQ(fields.number, value);
     }
 }
 
-TEST(ParametersTest, InfinityOnlyWhereTheIntervalHasNoUpperEnd) {
-    double open = 1, closed = 1;
+TEST(ParametersTest, InfinityOnlyWhereTheIntervalSaysSo) {
+    double open = 1, closed = 1, finite = 1;
     ParameterTable table("a", "");
-    table.real("open", open, "", Interval::positive(), "").real("closed", closed, "", Interval::between(0, 2), "");
+    table.real("open", open, "", Interval::positiveOrInfinite(), "")
+        .real("closed", closed, "", Interval::between(0, 2), "")
+        .real("finite", finite, "", Interval::any(), "");
+    EXPECT_TRUE(table.find("finite")->parse("inf"));
     EXPECT_FALSE(table.find("open")->parse("inf"));
     EXPECT_TRUE(std::isinf(open));
     EXPECT_EQ(table.find("open")->print(), "inf");
@@ -197,19 +207,20 @@ TEST(ParametersTest, MarkdownEscapesBars) {
     ParameterTable table("all", "About.");
     table.text("words", words, "This | that.")
         .choice("colour", colour, {{"red", Colour::red}, {"green", Colour::green}}, "Which.");
-    EXPECT_EQ(toMarkdown(table),
-              "### `[all]`\n\nAbout.\n\n| key | default | unit | expected | meaning |\n|---|---|---|---|---|\n"
-              "| `words` | `a\\|b` | - | text | This \\| that. |\n"
-              "| `colour` | `red` | - | one of red \\| green | Which. |\n");
+    EXPECT_EQ(
+        toMarkdown(table),
+        "### `[all]`\n\nAbout.\n\n| key | default | unit | expected | meaning |\n|---|---|---|---|---|\n"
+        "| `words` | `a\\|b` | - | text | This \\| that. |\n"
+        "| `colour` | `red` | - | one of red \\| green | Which. |\n");
 }
 
 TEST(ParametersTest, NearestWordIsNearEnough) {
     const std::vector<std::string> words{"range", "bearing", "speed_std"};
-    EXPECT_EQ(nearestWord("rnage", words), std::nullopt);   // two edits in five letters are too many
-    EXPECT_EQ(nearestWord("rang", words), "range");         // one letter lost
-    EXPECT_EQ(nearestWord("baering", words), "bearing");    // 2 edits, 7 / 3 = 2 allowed
+    EXPECT_EQ(nearestWord("rnage", words), std::nullopt);  // two edits in five letters are too many
+    EXPECT_EQ(nearestWord("rang", words), "range");        // one letter lost
+    EXPECT_EQ(nearestWord("baering", words), "bearing");   // 2 edits, 7 / 3 = 2 allowed
     EXPECT_EQ(nearestWord("speed_sdt", words), "speed_std");
-    EXPECT_EQ(nearestWord("speed", words), std::nullopt);   // 4 edits
+    EXPECT_EQ(nearestWord("speed", words), std::nullopt);  // 4 edits
     EXPECT_EQ(nearestWord("", words), std::nullopt);
     EXPECT_EQ(nearestWord("x", {}), std::nullopt);
 }

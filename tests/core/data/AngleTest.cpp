@@ -1,10 +1,9 @@
-#include "slamot/core/data/Angle.h"
-
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slamot/core/data/Angle.h"
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {

@@ -1,9 +1,8 @@
-#include "slamot/core/data/Odometry.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "slamot/core/data/Odometry.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -42,8 +41,8 @@ TEST(OdometryTest, PiecesComposeToTheWhole) {
 }
 
 TEST(OdometryTest, TheTwistIsConstant) {
-    // Half a circle of radius 1/2 to the left, ending 1 m to the left and facing back; after a third of the time 60
-    // degrees of it: (sin 60 / 2, (1 - cos 60) / 2).
+    // Half a circle of radius 1/2 to the left, ending 1 m to the left and facing back; after a third of the
+    // time 60 degrees of it: (sin 60 / 2, (1 - cos 60) / 2).
     const auto entry = entryOf({0, 1, pi});
     const auto [before, after] = split(entry, inside(entry, 1'000'000));
     EXPECT_TRUE(near(before.increment.vector(), Vector3(std::sqrt(3.0) / 4, 0.25, pi / 3), 1e-14));

@@ -1,7 +1,6 @@
-#include "slamot/core/data/Pose2.h"
-
 #include <gtest/gtest.h>
 
+#include "slamot/core/data/Pose2.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -48,7 +47,8 @@ TEST(Pose2Test, QuarterTurnIsTheDerivativeOfRotation) {
     const Vector2 p(2, -1);
     EXPECT_TRUE(near(quarterTurn() * p, Vector2(1, 2), 0));
     const double h = 1e-6;  // central difference: error h^2/6
-    EXPECT_TRUE(near((rotation(0.4 + h) - rotation(0.4 - h)) / (2 * h) * p, quarterTurn() * rotation(0.4) * p, 1e-9));
+    EXPECT_TRUE(
+        near((rotation(0.4 + h) - rotation(0.4 - h)) / (2 * h) * p, quarterTurn() * rotation(0.4) * p, 1e-9));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "slamot/core/data/Stamp.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <stdexcept>
+
+#include "slamot/core/data/Stamp.h"
 
 namespace slamot {
 namespace {
@@ -20,8 +20,9 @@ TEST(StampTest, PrintsSevenDecimalsFromTheTicks) {
 }
 
 TEST(StampTest, TextRoundTrips) {
-    for (const std::int64_t ticks : {0L, 1L, -1L, 9'999'999L, 10'000'000L, -10'000'001L, 17'000'000'001'234'567L,
-                                     -17'000'000'001'234'567L, 900'000'000'000'000'000L})
+    for (const std::int64_t ticks :
+         {0L, 1L, -1L, 9'999'999L, 10'000'000L, -10'000'001L, 17'000'000'001'234'567L,
+          -17'000'000'001'234'567L, 900'000'000'000'000'000L})
         EXPECT_EQ(stampFromText(toText(Stamp{ticks})).ticks, ticks);
 }
 
@@ -43,8 +44,8 @@ TEST(StampTest, ReadsShortForms) {
 }
 
 TEST(StampTest, RefusesWhatIsNoTime) {
-    for (const char* text : {"", "-", ".", "-.", "1.2.3", "1e5", "abc", "1 ", " 1", "+1", "1,5", "0x10", "nan", "inf",
-                             "--1", "1-", "99999999999999999999999999"})
+    for (const char* text : {"", "-", ".", "-.", "1.2.3", "1e5", "abc", "1 ", " 1", "+1", "1,5", "0x10",
+                             "nan", "inf", "--1", "1-", "99999999999999999999999999"})
         EXPECT_THROW(stampFromText(text), std::invalid_argument) << "'" << text << "'";
 }
 

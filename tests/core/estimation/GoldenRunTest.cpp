@@ -137,7 +137,7 @@ TEST_P(GoldenRun, MatchesTheTrace) {
 INSTANTIATE_TEST_SUITE_P(Paper1, GoldenRun,
                          testing::Values(std::pair{Consistency::classic, "classic"},
                                          std::pair{Consistency::invariant, "invariant"}),
-                         [](const auto& info) { return std::string(info.param.second); });
+                         [](const auto& each) { return std::string(each.param.second); });
 
 }  // namespace
 }  // namespace slamot

@@ -1,5 +1,3 @@
-#include "slamot/core/models/RangeBearing.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slamot/core/models/RangeBearing.h"
 #include "support/AutoDiff.h"
 #include "support/Expect.h"
 
@@ -23,13 +22,15 @@ struct Geometry {
     Pose2 sensor;
 };
 
-/// Points all around several robots, at ranges from just above the floor to far, bearings on both sides of +-pi.
+/// Points all around several robots, at ranges from just above the floor to far, bearings on both sides of
+/// +-pi.
 std::vector<Geometry> geometries() {
     std::vector<Geometry> out;
     for (const Pose2& sensor : {Pose2{}, Pose2{1.5, -0.4, 0.3}, Pose2{-2, 0, pi}})
         for (const Vector3& robot : {Vector3(0, 0, 0), Vector3(3, -2, 2.5), Vector3(-10, 4, -pi + 1e-9)})
             for (const double range : {1.1e-3, 0.02, 1.0, 80.0})
-                for (const double bearing : {0.0, 1.0, -2.0, pi / 2, pi - 1e-9, -pi + 1e-9, pi - 1e-3, -pi + 1e-3}) {
+                for (const double bearing :
+                     {0.0, 1.0, -2.0, pi / 2, pi - 1e-9, -pi + 1e-9, pi - 1e-3, -pi + 1e-3}) {
                     const Pose2 T_world_sensor = Pose2::fromVector(robot) * sensor;
                     const Vector2 in_sensor(range * std::cos(bearing), range * std::sin(bearing));
                     out.push_back({robot, T_world_sensor * in_sensor, sensor});
@@ -82,7 +83,8 @@ TEST(RangeBearingTest, JacobiansAreThoseOfTheModel) {
 TEST(RangeBearingTest, ThetaEntryIsMinusOneAndBearingRowFallsWithTheSquare) {
     // The paper prints +1 and 1/r (eq. 38-42). Point 2 m ahead on the x axis: d bearing / d y = 1/2 = 2/2^2.
     const auto h = predictRangeBearing({0, 0, 0}, {2, 0}, {});
-    const Eigen::Matrix<double, 2, 3> expected = (Eigen::Matrix<double, 2, 3>() << -1, 0, 0, 0, -0.5, -1).finished();
+    const Eigen::Matrix<double, 2, 3> expected =
+        (Eigen::Matrix<double, 2, 3>() << -1, 0, 0, 0, -0.5, -1).finished();
     EXPECT_TRUE(near(h.H_robot, expected, 1e-15));
     EXPECT_TRUE(near(h.H_point, -expected.leftCols<2>(), 1e-15));
 }

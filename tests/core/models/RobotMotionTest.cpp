@@ -1,11 +1,10 @@
-#include "slamot/core/models/RobotMotion.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "slamot/core/models/RobotMotion.h"
 #include "support/AutoDiff.h"
 #include "support/Expect.h"
 
@@ -19,15 +18,15 @@ using test::near;
 constexpr double rounding = 1e-13;
 constexpr double B = 2.5, dt = 0.2;
 
-const std::vector<Vector3> poses = {
-    {0, 0, 0}, {3, -2, 1.3}, {-40, 7, pi}, {1, 1, -pi}, {5, 5, pi - 1e-12}, {5, 5, -pi + 1e-12}, {0, 1, -pi / 2}};
+const std::vector<Vector3> poses = {{0, 0, 0},          {3, -2, 1.3},        {-40, 7, pi},   {1, 1, -pi},
+                                    {5, 5, pi - 1e-12}, {5, 5, -pi + 1e-12}, {0, 1, -pi / 2}};
 const std::vector<std::array<double, 2>> steered_controls = {
     {2, 0}, {2, 0.3}, {-2, -0.4}, {-2, 0}, {0, 0}, {1e-9, 0.2}, {3, radians(89)}, {-3, radians(-89)}};
-const std::vector<std::array<double, 2>> turning_controls = {{2, 0},  {2, 0.5},   {-1, 0.5}, {0, 0},
-                                                             {0, -3}, {2, 1e-9},  {2, -1e-9}};
-const std::vector<Pose2> increments = {{0.4, 0, 0},      {0.4, 0.1, 0.3},   {-0.4, 0.05, -0.2}, {0, 0, 0},
-                                       {0, 0, pi},       {0.3, -0.2, -3.1}, {0.4, 0, 1e-9},     {0.4, 0, -1e-9},
-                                       {1e-9, 1e-9, 0.1}};
+const std::vector<std::array<double, 2>> turning_controls = {{2, 0},  {2, 0.5},  {-1, 0.5}, {0, 0},
+                                                             {0, -3}, {2, 1e-9}, {2, -1e-9}};
+const std::vector<Pose2> increments = {{0.4, 0, 0},    {0.4, 0.1, 0.3}, {-0.4, 0.05, -0.2},
+                                       {0, 0, 0},      {0, 0, pi},      {0.3, -0.2, -3.1},
+                                       {0.4, 0, 1e-9}, {0.4, 0, -1e-9}, {1e-9, 1e-9, 0.1}};
 
 OdometryIncrement velocityEntry(const BodyVelocity& velocity, double seconds = dt) {
     OdometryIncrement entry;
@@ -76,7 +75,8 @@ TEST(RobotMotionTest, SteeredJacobiansAreThoseOfTheModel) {
                 },
                 u);
             EXPECT_TRUE(near(out.F, F, rounding)) << x.transpose() << " u " << u.transpose();
-            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding)) << x.transpose() << " u " << u.transpose();
+            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding))
+                << x.transpose() << " u " << u.transpose();
         }
 }
 
@@ -100,7 +100,8 @@ TEST(RobotMotionTest, DifferentialJacobiansAreThoseOfTheModel) {
                 },
                 u);
             EXPECT_TRUE(near(out.F, F, rounding)) << x.transpose() << " u " << u.transpose();
-            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding)) << x.transpose() << " u " << u.transpose();
+            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding))
+                << x.transpose() << " u " << u.transpose();
         }
 }
 
@@ -132,7 +133,8 @@ TEST(RobotMotionTest, ArcJacobiansAreThoseOfTheModel) {
                 u);
             const Matrix3 Qu = randomWalk(p, std::abs(ds), std::abs(d.theta));
             EXPECT_TRUE(near(out.F, F, rounding)) << x.transpose() << " u " << u.transpose();
-            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding)) << x.transpose() << " u " << u.transpose();
+            EXPECT_TRUE(near(out.Q, G * Qu * G.transpose(), rounding))
+                << x.transpose() << " u " << u.transpose();
         }
 }
 
@@ -204,7 +206,8 @@ TEST(RobotMotionTest, LogCovarianceCanBeTurnedOff) {
 }
 
 /// Variance after an entry cut in `pieces`: P <- F P F^t + Q over the pieces.
-Matrix3 varianceInPieces(const RobotMotionParameters& p, const BodyVelocity& velocity, int pieces, double seconds) {
+Matrix3 varianceInPieces(const RobotMotionParameters& p, const BodyVelocity& velocity, int pieces,
+                         double seconds) {
     Vector3 x = Vector3::Zero();
     Matrix3 P = Matrix3::Zero();
     OdometryIncrement rest = velocityEntry(velocity, seconds);
@@ -224,8 +227,9 @@ Matrix3 varianceInPieces(const RobotMotionParameters& p, const BodyVelocity& vel
 }
 
 TEST(RobotMotionTest, CuttingAStraightEntryKeepsTheVarianceExactly) {
-    // Speed noise: (k pieces) * sigma^2 (T/k)^2 * k = sigma^2 T^2; turn noise likewise. Across the path pieces add
-    // the lever of earlier turns, which a single Euler step does not know; it is of higher order in T.
+    // Speed noise: (k pieces) * sigma^2 (T/k)^2 * k = sigma^2 T^2; turn noise likewise. Across the path
+    // pieces add the lever of earlier turns, which a single Euler step does not know; it is of higher order
+    // in T.
     const auto differential = parametersOf(RobotMotionModel::differential);
     const auto steered = parametersOf(RobotMotionModel::steered);
     for (const int pieces : {2, 4, 5}) {
@@ -245,7 +249,8 @@ TEST(RobotMotionTest, CuttingATurningEntryKeepsTheVarianceToFirstOrder) {
         const Matrix3 whole = varianceInPieces(p, u, 1, seconds), cut = varianceInPieces(p, u, 4, seconds);
         return (cut - whole).norm() / whole.norm();
     };
-    // The change vanishes with the length of the entry: linearly, so a quarter of it leaves at most about a quarter.
+    // The change vanishes with the length of the entry: linearly, so a quarter of it leaves at most about a
+    // quarter.
     EXPECT_LT(relativeChange(0.1), 0.1);
     EXPECT_LT(relativeChange(0.025), 0.3 * relativeChange(0.1));
     // Without the scale of the control variance four pieces would lose three quarters of it.

@@ -1,10 +1,9 @@
-#include "slamot/core/models/TargetMotion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "slamot/core/models/TargetMotion.h"
 #include "support/AutoDiff.h"
 #include "support/Expect.h"
 
@@ -21,10 +20,10 @@ Vector6 state(double px, double py, double vx, double vy, double ax, double ay) 
 /// Ordinary, standing, all but standing, straight, turning hardly (angles around the switch to series, 1e-4),
 /// turning hard.
 const std::vector<Vector6> states = {
-    state(1, -2, 3, 1, 0.2, -0.4), state(5, 5, 0, 0, 0, 0),          state(5, 5, 0, 0, 0.3, -0.2),
-    state(0, 0, 1e-9, -1e-9, 0, 0), state(0, 0, 1e-3, 2e-3, 1, -1),   state(0, 0, -2, 0, 0, 0),
-    state(3, 1, 2, 0, 0, 2e-9),     state(3, 1, 2, 0, 0, -2e-9),      state(3, 1, 1, 0, 0, 0.99e-3),
-    state(3, 1, 1, 0, 0, 1.1e-3),   state(3, 1, 1, 0, 0, -1.1e-3),    state(-50, 90, 0.5, -1, 3, 3)};
+    state(1, -2, 3, 1, 0.2, -0.4),  state(5, 5, 0, 0, 0, 0),        state(5, 5, 0, 0, 0.3, -0.2),
+    state(0, 0, 1e-9, -1e-9, 0, 0), state(0, 0, 1e-3, 2e-3, 1, -1), state(0, 0, -2, 0, 0, 0),
+    state(3, 1, 2, 0, 0, 2e-9),     state(3, 1, 2, 0, 0, -2e-9),    state(3, 1, 1, 0, 0, 0.99e-3),
+    state(3, 1, 1, 0, 0, 1.1e-3),   state(3, 1, 1, 0, 0, -1.1e-3),  state(-50, 90, 0.5, -1, 3, 3)};
 const std::vector<double> steps = {0.1, 1.0};
 
 TargetModel modelOf(TargetModelKind kind, double turn_rate = 0) {
@@ -47,10 +46,14 @@ std::vector<TargetModel> allModels() {
 template <class S>
 Eigen::Matrix<S, 6, 1> motionOf(const TargetModel& model, const Eigen::Matrix<S, 6, 1>& x, double dt) {
     switch (model.kind) {
-        case TargetModelKind::cv: return cvMotion(x, dt);
-        case TargetModelKind::ca: return caMotion(x, dt);
-        case TargetModelKind::ct: return ctMotion(x, S(model.turn_rate), dt);
-        case TargetModelKind::unicycle: return unicycleMotion(x, dt);
+        case TargetModelKind::cv:
+            return cvMotion(x, dt);
+        case TargetModelKind::ca:
+            return caMotion(x, dt);
+        case TargetModelKind::ct:
+            return ctMotion(x, S(model.turn_rate), dt);
+        case TargetModelKind::unicycle:
+            return unicycleMotion(x, dt);
     }
     return x;
 }
@@ -85,13 +88,16 @@ TEST(TargetMotionTest, AllModelsCommuteWithRotation) {
                 const Matrix6 R = turn(angle);
                 const auto plain = predictTarget(model, x, 0.5), turned = predictTarget(model, R * x, 0.5);
                 EXPECT_TRUE(near(turned.mean, R * plain.mean, 1e-13)) << model.name() << " " << x.transpose();
-                EXPECT_TRUE(near(turned.F, R * plain.F * R.transpose(), 1e-11)) << model.name() << " " << x.transpose();
-                EXPECT_TRUE(near(turned.Q, R * plain.Q * R.transpose(), 1e-13)) << model.name() << " " << x.transpose();
+                EXPECT_TRUE(near(turned.F, R * plain.F * R.transpose(), 1e-11))
+                    << model.name() << " " << x.transpose();
+                EXPECT_TRUE(near(turned.Q, R * plain.Q * R.transpose(), 1e-13))
+                    << model.name() << " " << x.transpose();
             }
 }
 
 TEST(TargetMotionTest, NoisePerStepIsThatOfThePapers) {
-    // q^2 g g^t on each axis, g = (dt^2/2, dt) for cv, (dt^3/6, dt^2/2, dt) for ca (tests/data/golden/paper1).
+    // q^2 g g^t on each axis, g = (dt^2/2, dt) for cv, (dt^3/6, dt^2/2, dt) for ca
+    // (tests/data/golden/paper1).
     const double dt = 0.15, q = 1.8;
     const Vector3 g_cv(dt * dt / 2, dt, 0), g_ca(dt * dt * dt / 6, dt * dt / 2, dt);
     for (const auto& [kind, g] : {std::pair{TargetModelKind::cv, g_cv}, std::pair{TargetModelKind::ct, g_cv},
@@ -101,7 +107,8 @@ TEST(TargetMotionTest, NoisePerStepIsThatOfThePapers) {
         const Matrix6 Q = predictTarget(model, states[0], dt).Q;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-                EXPECT_TRUE(near(Q.block<2, 2>(2 * i, 2 * j), q * q * g(i) * g(j) * Matrix2::Identity(), 1e-15))
+                EXPECT_TRUE(
+                    near(Q.block<2, 2>(2 * i, 2 * j), q * q * g(i) * g(j) * Matrix2::Identity(), 1e-15))
                     << model.name();
     }
 }
@@ -111,7 +118,8 @@ TEST(TargetMotionTest, NoiseWithAnIntervalComposes) {
     for (const auto kind : {TargetModelKind::cv, TargetModelKind::ca}) {
         TargetModel model = modelOf(kind);
         model.noise_interval = 0.25;
-        const auto whole = predictTarget(model, states[0], dt), half = predictTarget(model, states[0], dt / 2);
+        const auto whole = predictTarget(model, states[0], dt),
+                   half = predictTarget(model, states[0], dt / 2);
         EXPECT_TRUE(near(half.F * half.Q * half.F.transpose() + half.Q, whole.Q, 1e-15)) << model.name();
         // Velocity (cv) or acceleration (ca) is a random walk of density q^2 * interval.
         const int last = kind == TargetModelKind::cv ? 2 : 4;
@@ -135,11 +143,13 @@ TEST(TargetMotionTest, HandComputedSteps) {
     // ct at pi/2 rad/s for 1 s with speed 1 along x: a quarter circle of radius 2/pi to the left.
     EXPECT_TRUE(near(predictTarget(modelOf(TargetModelKind::ct, pi / 2), state(0, 0, 1, 0, 9, 9), 1).mean,
                      state(2 / pi, 2 / pi, 0, 1, 0, 0), 1e-15));
-    // unicycle: speed 2, centripetal acceleration 1 to the left, w = (2*1)/(4 + 0.0025); it stays centripetal.
+    // unicycle: speed 2, centripetal acceleration 1 to the left, w = (2*1)/(4 + 0.0025); it stays
+    // centripetal.
     const double w = 2 / 4.0025;
     const auto out = predictTarget(modelOf(TargetModelKind::unicycle), state(0, 0, 2, 0, 0, 1), 1).mean;
-    EXPECT_TRUE(near(out, state(2 * std::sin(w) / w, 2 * (1 - std::cos(w)) / w, 2 * std::cos(w), 2 * std::sin(w),
-                                -w * 2 * std::sin(w), w * 2 * std::cos(w)),
+    EXPECT_TRUE(near(out,
+                     state(2 * std::sin(w) / w, 2 * (1 - std::cos(w)) / w, 2 * std::cos(w), 2 * std::sin(w),
+                           -w * 2 * std::sin(w), w * 2 * std::cos(w)),
                      1e-14));
 }
 

@@ -1,11 +1,11 @@
-#include "slamot/core/random/RandomStream.h"
-
 #include <gtest/gtest.h>
 
 #include <bitset>
 #include <cmath>
 #include <set>
 #include <vector>
+
+#include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
 namespace {
@@ -42,19 +42,22 @@ TEST(RandomStreamTest, KeysNeverShareDraws) {
     std::set<std::vector<std::uint32_t>> seen;
     int streams = 0;
     for (const std::uint64_t seed : {0ull, 1ull, 1ull << 32})
-        for (std::uint32_t purpose = 0; purpose <= static_cast<std::uint32_t>(RandomPurpose::proposal); ++purpose)
+        for (std::uint32_t purpose = 0; purpose <= static_cast<std::uint32_t>(RandomPurpose::proposal);
+             ++purpose)
             for (std::uint32_t robot = 0; robot < 4; ++robot)
                 for (const std::uint32_t step : {0u, 1u, 77u})
                     for (const std::uint32_t index : {0u, 1u, 77u}) {
-                        seen.insert(firstDraws({seed, static_cast<RandomPurpose>(purpose), robot, step, index}, 4));
+                        seen.insert(
+                            firstDraws({seed, static_cast<RandomPurpose>(purpose), robot, step, index}, 4));
                         ++streams;
                     }
     EXPECT_EQ(static_cast<int>(seen.size()), streams);
 }
 
 TEST(RandomStreamTest, UniformLiesInTheOpenIntervalWithItsMoments) {
-    // 10^6 draws: mean 1/2 with deviation sqrt(1/12)/1000 = 2.9e-4, second moment 1/3 with sqrt(4/45)/1000 = 3e-4.
-    // Bounds at 5 deviations: false alarm 6e-7 each over seeds; the seed is fixed, so it holds or not for good.
+    // 10^6 draws: mean 1/2 with deviation sqrt(1/12)/1000 = 2.9e-4, second moment 1/3 with sqrt(4/45)/1000 =
+    // 3e-4. Bounds at 5 deviations: false alarm 6e-7 each over seeds; the seed is fixed, so it holds or not
+    // for good.
     RandomStream stream(3, test_purpose);
     double sum = 0, squares = 0;
     for (int i = 0; i < 1000000; ++i) {
@@ -72,8 +75,8 @@ TEST(RandomStreamTest, UniformLiesInTheOpenIntervalWithItsMoments) {
 }
 
 TEST(RandomStreamTest, NormalHasItsMomentsAndTails) {
-    // Deviations of the sample moments of 10^6 normals: mean 1e-3, variance sqrt(2)e-3, fourth moment sqrt(96)e-3;
-    // lag-one product 1e-3. Bounds at 5 deviations: false alarm 6e-7 each.
+    // Deviations of the sample moments of 10^6 normals: mean 1e-3, variance sqrt(2)e-3, fourth moment
+    // sqrt(96)e-3; lag-one product 1e-3. Bounds at 5 deviations: false alarm 6e-7 each.
     RandomStream stream(4, test_purpose);
     double m1 = 0, m2 = 0, m3 = 0, m4 = 0, lag = 0, last = 0, beyond = 0;
     for (int i = 0; i < 1000000; ++i) {
@@ -118,9 +121,12 @@ TEST(RandomStreamTest, DerivedSeedsSpread) {
     for (std::uint64_t number = 0; number < 50; ++number) seeds.insert(derivedSeed(0, number << 32 | 1));
     // number 1 of seed 0 is there already as (0 << 32 | 1)
     EXPECT_EQ(seeds.size(), 2500u + 49u);
-    // A change of one bit changes about half of the 64: between 12 and 52 with odds of 3e-7 outside, 128 times.
+    // A change of one bit changes about half of the 64: between 12 and 52 with odds of 3e-7 outside, 128
+    // times.
     for (int bit = 0; bit < 64; ++bit) {
-        const auto changed = [&](std::uint64_t other) { return std::bitset<64>(derivedSeed(5, 9) ^ other).count(); };
+        const auto changed = [&](std::uint64_t other) {
+            return std::bitset<64>(derivedSeed(5, 9) ^ other).count();
+        };
         for (const std::size_t count :
              {changed(derivedSeed(5 ^ (1ull << bit), 9)), changed(derivedSeed(5, 9 ^ (1ull << bit)))}) {
             EXPECT_GT(count, 11u) << bit;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/core/exceptions.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,14 +9,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "Text.h"
+
 namespace slamot {
 namespace {
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 bool startsWith(const std::string& text, const std::string& prefix) {
     return text.compare(0, prefix.size(), prefix) == 0;
@@ -71,17 +66,20 @@ Places scan(const std::string& text, const std::string& name) {
                 fmt::format("{}:{}: '{}' stands before any section, expected [name] first", name, number, line));
         const std::string key = trimmed(line.substr(0, equals));
         places.keys[section][key] = number;
-        if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number); !is_new)
+        if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number);
+            !is_new)
             throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name, number,
                                           key, section, at->second));
     }
     return places;
 }
 
-/// What MRPT says is wrong, without its call stack.
+/// What MRPT says is wrong, without where in MRPT and its call stack.
 std::string sentenceOf(const std::exception& error) {
-    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    return with_stack ? with_stack->originalWhat : error.what();
+    const std::string text = error.what(), label = "Message:";
+    const auto found = text.find(label);
+    const auto begin = found == std::string::npos ? 0 : found + label.size();
+    return trimmed(text.substr(begin, text.find('\n', begin) - begin));
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {

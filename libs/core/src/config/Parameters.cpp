@@ -11,6 +11,8 @@
 
 #include "slamot/core/data/Angle.h"
 
+#include "Text.h"
+
 namespace slamot {
 namespace {
 
@@ -18,14 +20,8 @@ bool isDegrees(const std::string& key) {
     return key.size() > 4 && key.compare(key.size() - 4, 4, "_deg") == 0;
 }
 
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// Degrees and radians are both doubles, but not every double in radians is that of a double in degrees. Text with
-/// more digits than a double has is therefore read and turned in extended precision.
+/// Degrees and radians are both doubles, but not every double in radians is that of a double in degrees. Text
+/// with more digits than a double has is therefore read and turned in extended precision.
 constexpr int double_digits = 17;
 constexpr long double radians_per_degree = pi / 180.0;
 
@@ -33,8 +29,8 @@ int significantDigits(const std::string& text) {
     const std::string mantissa = text.substr(0, text.find_first_of("eE"));
     const auto first = mantissa.find_first_of("123456789");
     if (first == std::string::npos) return 0;
-    return static_cast<int>(std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(first), mantissa.end(),
-                                          [](unsigned char c) { return std::isdigit(c); }));
+    return static_cast<int>(std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(first),
+                                          mantissa.end(), [](unsigned char c) { return std::isdigit(c); }));
 }
 
 /// `text` in degrees, a number that has been checked, in radians.
@@ -50,7 +46,7 @@ std::optional<double> readNumber(const std::string& text, const Interval& interv
     const std::string word = trimmed(text);
     const auto value = numberFromText(word);
     if (!value || !interval.contains(*value)) return std::nullopt;
-    if (std::isinf(*value) && !(std::isinf(interval.high) && *value > 0)) return std::nullopt;
+    if (std::isinf(*value) && !(interval.infinite && *value > 0)) return std::nullopt;
     return is_degrees ? radiansFromText(word) : *value;
 }
 
@@ -85,6 +81,7 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
 std::string Interval::text() const {
     const bool from = std::isfinite(low), to = std::isfinite(high);
     const std::string a = shortestText(low), b = shortestText(high);
+    if (infinite) return (open_low ? "above " : "of at least ") + a + ", or inf";
     if (from && to) return fmt::format("in {}{}, {}{}", open_low ? '(' : '[', a, b, open_high ? ')' : ']');
     if (from) return (open_low ? "above " : "of at least ") + a;
     if (to) return (open_high ? "below " : "of at most ") + b;
@@ -146,7 +143,8 @@ ParameterTable& ParameterTable::reals(const std::string& key, std::vector<double
                    [&field, interval, deg, expected](const std::string& text) -> std::optional<std::string> {
                        std::vector<double> values;
                        // A last comma would announce a number that is not there.
-                       if (const std::string word = trimmed(text); !word.empty() && word.back() == ',') return expected;
+                       if (const std::string word = trimmed(text); !word.empty() && word.back() == ',')
+                           return expected;
                        std::stringstream parts(text);
                        for (std::string part; std::getline(parts, part, ',');) {
                            const auto value = readNumber(part, interval, deg);
@@ -279,8 +277,8 @@ std::string toMarkdown(const ParameterTable& table) {
         return words;
     };
     for (const auto& parameter : table.parameters())
-        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", parameter.key, cell(parameter.print()), parameter.unit,
-                            cell(parameter.expected), cell(parameter.help));
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", parameter.key, cell(parameter.print()),
+                            parameter.unit, cell(parameter.expected), cell(parameter.help));
     return text;
 }
 

@@ -9,7 +9,8 @@ namespace slamot {
 
 std::string toText(Stamp stamp) {
     const bool negative = stamp.ticks < 0;
-    const auto magnitude = negative ? -static_cast<std::uint64_t>(stamp.ticks) : static_cast<std::uint64_t>(stamp.ticks);
+    const auto magnitude =
+        negative ? -static_cast<std::uint64_t>(stamp.ticks) : static_cast<std::uint64_t>(stamp.ticks);
     constexpr auto per_second = static_cast<std::uint64_t>(Stamp::ticks_per_second);
     return fmt::format("{}{}.{:07d}", negative ? "-" : "", magnitude / per_second, magnitude % per_second);
 }

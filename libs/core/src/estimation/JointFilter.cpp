@@ -48,6 +48,7 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
     UpdateReport report;
     batch_.clear();
     const int count = static_cast<int>(set.rangeBearing().detections.size());
+    report.innovations.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) report.innovations.push_back(match(set, i));
 
     state_->update(batch_, parameters_.consistency);
@@ -139,6 +140,7 @@ PoseGaussian JointFilter::robot() const {
 
 std::vector<TrackEstimate> JointFilter::tracks() const {
     std::vector<TrackEstimate> out;
+    out.reserve(objects_.tracks().size());
     for (const TrackRecord& track : objects_.tracks()) {
         TrackEstimate estimate;
         estimate.id = track.id;

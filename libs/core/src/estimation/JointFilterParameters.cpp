@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -33,6 +34,7 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
 std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text) {
     std::vector<ModelChange> schedule;
     if (text == "none" || text.empty()) return schedule;
+    if (text.back() == ',') return std::nullopt;
     for (const std::string& entry : splitAt(text, ',')) {
         const auto parts = splitAt(entry, ':');
         if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
@@ -40,7 +42,9 @@ std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text
         ParameterTable model("schedule", "");
         describe(change.model, model);
         const auto after = numberFromText(parts[0]);
-        if (!after || *after < 0 || (!schedule.empty() && *after <= schedule.back().after)) return std::nullopt;
+        if (!after || !std::isfinite(*after) || *after < 0 ||
+            (!schedule.empty() && *after <= schedule.back().after))
+            return std::nullopt;
         change.after = *after;
         if (model.find("model")->parse(parts[1])) return std::nullopt;
         if (parts.size() == 3 && model.find("noise_std")->parse(parts[2])) return std::nullopt;
@@ -84,7 +88,7 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
               "Prior of each velocity component at first sight.")
         .real("acceleration_std", p.target_acceleration_std, "m/s^2", Interval::nonNegative(),
               "Prior of each acceleration component at first sight.")
-        .real("max_unseen", p.target_max_unseen, "s", Interval::positive(),
+        .real("max_unseen", p.target_max_unseen, "s", Interval::positiveOrInfinite(),
               "A track not seen for longer ends; inf keeps it.");
     return {filter, outliers, target};
 }

@@ -49,7 +49,8 @@ void refuseDoubles(std::vector<PluginInfo>& found, std::vector<RefusedPlugin>& r
         for (const std::string& what : {"class " + plugin.class_name, "name '" + plugin.name + "'"})
             for (const std::string& other : owners[what])
                 if (other != plugin.file) {
-                    refused.push_back({plugin.file, fmt::format("{} is also that of {}", what, other)});
+                    refused.push_back(
+                        {plugin.file, fmt::format("{}: {} is also that of {}", plugin.file, what, other)});
                     return true;
                 }
         return false;
@@ -131,7 +132,7 @@ const PluginInfo& PluginRegistry::find(const std::string& name, const std::strin
     }
     for (const RefusedPlugin& refused : refused_)
         if (fs::path(refused.file).stem() == module_prefix + name)
-            throw PluginError(fmt::format("{} '{}' was refused: {}: {}", kind, name, refused.file, refused.reason));
+            throw PluginError(fmt::format("{} '{}' was refused: {}", kind, name, refused.reason));
     const auto near = nearestWord(name, names);
     std::string known;
     for (const std::string& other : names) known += (known.empty() ? "" : ", ") + other;

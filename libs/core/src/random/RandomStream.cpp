@@ -3,17 +3,25 @@
 #include <Random123/philox.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "slamot/core/data/Angle.h"
 
 namespace slamot {
+namespace {
+
+constexpr int robot_bits = 20;
+
+}  // namespace
 
 RandomStream::RandomStream(std::uint64_t seed, RandomPurpose purpose, std::uint32_t robot, std::uint32_t step,
                            std::uint32_t index)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
       // The first counter word counts blocks; the rest say whose draws these are.
-      counter_{0, index, step, (static_cast<std::uint32_t>(purpose) << 20) ^ robot},
-      block_{} {}
+      counter_{0, index, step, (static_cast<std::uint32_t>(purpose) << robot_bits) | robot},
+      block_{} {
+    if (robot >> robot_bits) throw std::invalid_argument("random streams number robots (or movers) below 2^20");
+}
 
 std::uint32_t RandomStream::bits() {
     if (next_ == 4) {

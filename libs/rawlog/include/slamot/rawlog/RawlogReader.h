@@ -62,7 +62,8 @@ class RawlogReader {
     RawlogReader(const std::string& file, const LogParameters& parameters);
     ~RawlogReader();
 
-    /// The next entry, or nothing at the end: then `end()` says which end it was.
+    /// The next entry, or nothing at the end: then `end()` says which end it was. Throws LogError for an
+    /// action whose numbers are not finite: the way would be lost.
     std::optional<LogEntry> next();
 
     LogFormat format() const;

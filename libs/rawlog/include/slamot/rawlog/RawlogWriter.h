@@ -19,6 +19,8 @@ class RawlogWriter {
 
     void write(const mrpt::obs::CObservation& observation);
     void writeFrame(const mrpt::obs::CActionCollection& action, const mrpt::obs::CSensoryFrame& observations);
+    /// A movement after the last frame, as MRPT's own logs end.
+    void writeAction(const mrpt::obs::CActionCollection& action);
     void close();
 
   private:

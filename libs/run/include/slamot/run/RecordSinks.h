@@ -1,10 +1,10 @@
 #pragma once
 // Sinks that keep a run in memory instead of files: for metrics, summaries and studies.
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "slamot/eval/RunRecord.h"
+#include "slamot/rawlog/Sha256.h"
 #include "slamot/run/CsvSinks.h"
 
 namespace slamot::run {
@@ -28,16 +28,16 @@ class RunRecorder : public Sink {
 /// estimates.
 class EstimateHash : public Sink {
    public:
-    EstimateHash();
-    ~EstimateHash() override;
     void step(const Step& step) override;
     void end(const RunEnd& end) override;
     /// Hex; after the end.
     const std::string& hex() const { return hex_; }
 
    private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    void addInteger(std::int64_t value) { sum_.add(&value, sizeof value); }
+    void addNumbers(const double* values, std::size_t count) { sum_.add(values, count * sizeof(double)); }
+
+    Sha256 sum_;
     std::string hex_;
 };
 

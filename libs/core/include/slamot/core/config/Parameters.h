@@ -16,6 +16,8 @@ struct Interval {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool open_low = false, open_high = false;
+    /// Whether "inf" may be given: only where 'no limit' means something.
+    bool infinite = false;
 
     bool contains(double v) const {
         return (open_low ? v > low : v >= low) && (open_high ? v < high : v <= high);
@@ -24,6 +26,7 @@ struct Interval {
 
     static Interval any() { return {}; }
     static Interval positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
+    static Interval positiveOrInfinite() { return {0, std::numeric_limits<double>::infinity(), true, false, true}; }
     static Interval nonNegative() { return {0, std::numeric_limits<double>::infinity(), false, false}; }
     static Interval probability() { return {0, 1, false, false}; }
     static Interval openProbability() { return {0, 1, true, true}; }
@@ -41,8 +44,8 @@ struct Parameter {
 };
 
 /// The parameters of one section. Holds references to the fields: it must not outlive the struct it describes.
-/// Angles are radians inside; a key that ends in `_deg` is read and printed in degrees. For numbers, "inf" is
-/// legal only where the interval has no upper end.
+/// Angles are radians inside; a key that ends in `_deg` is read and printed in degrees. "inf" is legal
+/// only where the interval says so.
 class ParameterTable {
    public:
     ParameterTable(std::string section, std::string about);

@@ -22,7 +22,7 @@ enum class BlockKind {
 using BlockId = int;
 inline constexpr BlockId robot_block = 0;
 
-/// How an update is made consistent with the world's freedom to turn (estimators.md, doc/maths/joint_ekf.md).
+/// How an update is made consistent with the world's freedom to turn (doc/plugins/ekf_slamot.md).
 enum class Consistency {
     classic,   ///< the textbook EKF
     invariant  ///< the covariance is transported along the update of the mean

@@ -1,6 +1,6 @@
 #pragma once
 // A range-bearing detection against the joint state: linearisation, gate, and the start of new objects. The
-// second-order range terms belong to the invariant core; doc/maths/joint_ekf.md derives them.
+// second-order range terms belong to the invariant core; doc/plugins/ekf_slamot.md derives them.
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/estimation/JointState.h"
 

@@ -63,7 +63,10 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     /// Forgets everything and begins at `start`. Must follow initialize.
     void start(const Start& start);
     /// Begins again at the last `start`: equal to a fresh object.
-    void reset() { start(start_); }
+    void reset() {
+        requireStarted("reset");
+        start(start_);
+    }
 
     /// Moves time from t0 (the present time) to t1.
     void predict(const OdometryIncrement& odometry);

@@ -22,7 +22,9 @@ struct PluginInfo {
 
 /// A module that was found and refused.
 struct RefusedPlugin {
-    std::string file, reason;
+    std::string file;
+    /// One sentence, beginning with the file.
+    std::string reason;
 };
 
 /// The plugins of this process. Load before starting threads.

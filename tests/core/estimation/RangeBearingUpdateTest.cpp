@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/RangeBearingUpdate.h"
+#include "slamot/core/models/RangeBearing.h"
+#include "support/Expect.h"
+#include "support/RandomMatrices.h"
+
+namespace slamot {
+namespace {
+
+using test::near;
+
+const Matrix2 R = (Matrix2() << 0.01, 0.001, 0.001, 0.0025).finished();
+
+/// Robot at (1, 2, 0.5) with a landmark at (7, 10), 10 m away, correlated.
+DenseJointState correlatedState() {
+    const Matrix3 robot = (Matrix3() << 0.4, 0.1, 0.02, 0.1, 0.3, -0.03, 0.02, -0.03, 0.01).finished();
+    DenseJointState state({1, 2, 0.5}, robot);
+    const Eigen::Matrix<double, 2, 3> G = (Eigen::Matrix<double, 2, 3>() << 1, 0, -8, 0, 1, 6).finished();
+    state.augment(BlockKind::landmark, Vector2(7, 10), G, (Matrix2() << 0.5, 0.2, 0.2, 0.4).finished());
+    return state;
+}
+
+RangeBearingDetection detectionOf(double range, double bearing) {
+    RangeBearingDetection detection;
+    detection.range = range;
+    detection.bearing = bearing;
+    detection.covariance = R;
+    return detection;
+}
+
+TEST(RangeBearingUpdateTest, ClassicIsTheModelsLinearisation) {
+    const DenseJointState state = correlatedState();
+    const Pose2 sensor{0.5, -0.2, 0.3};
+    const auto h = predictRangeBearing({1, 2, 0.5}, {7, 10}, sensor);
+    const auto out =
+        linearise(state, 1, detectionOf(h.z.x() + 0.3, h.z.y() - 0.1), sensor, Consistency::classic);
+    EXPECT_TRUE(near(out.measurement.residual, Vector2(0.3, -0.1), 1e-14));
+    EXPECT_EQ(out.measurement.R, R);
+    ASSERT_EQ(out.measurement.term_count, 2);
+    EXPECT_EQ(out.measurement.terms[0].block, robot_block);
+    EXPECT_EQ(out.measurement.terms[1].block, 1);
+    EXPECT_TRUE(near(out.measurement.terms[0].H, h.H_robot, 0));
+    EXPECT_TRUE(near(out.measurement.terms[1].H, h.H_point, 0));
+    Eigen::Matrix<double, 2, 5> H;
+    H << h.H_robot, h.H_point;
+    const Matrix2 S = H * state.jointCovariance({0, 1}) * H.transpose() + R;
+    EXPECT_TRUE(near(out.S, S, 1e-14));
+    EXPECT_NEAR(out.nis, Vector2(0.3, -0.1).dot(S.inverse() * Vector2(0.3, -0.1)), 1e-13);
+}
+
+TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
+    // Innovation of range -= P_lat/(2d), its variance += (P_lat/d)^2/2, P_lat the variance across the line of
+    // sight of landmark minus sensor; the lever arm turns with the heading.
+    const DenseJointState state = correlatedState();
+    const Pose2 sensor{0.5, -0.2, 0.3};
+    const auto classic = linearise(state, 1, detectionOf(9, 0.3), sensor, Consistency::classic);
+    const auto invariant = linearise(state, 1, detectionOf(9, 0.3), sensor, Consistency::invariant);
+
+    const Vector2 lever = rotation(0.5) * sensor.position(), rel = Vector2(6, 8) - lever;
+    const double d = rel.norm();
+    const Vector2 t = Vector2(-rel.y(), rel.x()) / d;
+    Eigen::Matrix<double, 2, 5> D;  // d rel / d [robot, landmark]
+    D << -Matrix2::Identity(), Vector2(lever.y(), -lever.x()), Matrix2::Identity();
+    const double P_lat = t.dot(D * state.jointCovariance({0, 1}) * D.transpose() * t);
+    EXPECT_GT(P_lat, 0.1);  // or there would be nothing to see
+
+    EXPECT_NEAR(invariant.measurement.residual.x(), classic.measurement.residual.x() - P_lat / (2 * d),
+                1e-13);
+    EXPECT_EQ(invariant.measurement.residual.y(), classic.measurement.residual.y());
+    Matrix2 extra = Matrix2::Zero();
+    extra(0, 0) = P_lat * P_lat / (2 * d * d);
+    EXPECT_TRUE(near(invariant.measurement.R, R + extra, 1e-14));
+    EXPECT_TRUE(near(invariant.S, classic.S + extra, 1e-14));
+}
+
+TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
+    // Sensor at the robot, 2 m away, 0.2 m of uncertainty: mean and variance of the true range by sampling.
+    DenseJointState state({0, 0, 0}, Vector3(0.02, 0.02, 0).asDiagonal());
+    state.augment(BlockKind::landmark, Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3),
+                  0.02 * Matrix2::Identity());
+    const auto out = linearise(state, 1, detectionOf(2, 0), {}, Consistency::invariant);
+
+    RandomStream random(9, RandomPurpose::test);
+    const int n = 1000000;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < n; ++i) {
+        // Landmark minus robot: variance 0.04 along and across.
+        const double error = std::hypot(2 + 0.2 * random.normal(), 0.2 * random.normal()) - 2;
+        sum += error;
+        squares += error * error;
+    }
+    const double mean = sum / n, variance = squares / n - mean * mean;
+    // residual = 2 - 2 - bias. The sample's mean deviates by 0.2/1000; the neglected fourth order, about
+    // 3 P_lat^2 / (8 d^3) = 8e-5, is below that. P_lat / 2d = 0.01.
+    EXPECT_NEAR(-out.measurement.residual.x(), mean, 5 * 2e-4);
+    EXPECT_NEAR(-out.measurement.residual.x(), 0.01, 1e-15);
+    // H P H^t = 0.04, + (0.04/2)^2/2 = 2e-4. Its own deviation 0.04 sqrt(2)/1000 = 5.7e-5, 5 of them plus
+    // what the coupling of along and across adds in the same order (P_lat P_along / d^2 = 4e-4, left to H by
+    // design).
+    EXPECT_NEAR(out.S(0, 0) - R(0, 0), 0.0402, 1e-15);
+    EXPECT_NEAR(out.S(0, 0) - R(0, 0), variance, 5 * 5.7e-5 + 4.1e-4);
+}
+
+TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
+    // The landmark lies straight behind, at +pi; seen at -pi + 0.1 the innovation is 0.1 and not 0.1 - 2 pi.
+    DenseJointState state({0, 0, 0}, 0.01 * Matrix3::Identity());
+    state.augment(BlockKind::landmark, Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3),
+                  0.01 * Matrix2::Identity());
+    for (const double offset : {0.1, -0.1}) {
+        const double bearing = wrapAngle(pi + offset);
+        const auto out = linearise(state, 1, detectionOf(5, bearing), {}, Consistency::classic);
+        EXPECT_NEAR(out.measurement.residual.y(), offset, 1e-14);
+    }
+}
+
+TEST(RangeBearingUpdateTest, RefusesAnIndefiniteS) {
+    const DenseJointState state = correlatedState();
+    RangeBearingDetection detection = detectionOf(10, 0);
+    detection.covariance = -100 * Matrix2::Identity();
+    EXPECT_THROW(linearise(state, 1, detection, {}, Consistency::classic), std::domain_error);
+}
+
+TEST(RangeBearingUpdateTest, FirstSightOfTheClassicFilterIsTheInverseModel) {
+    const DenseJointState state = correlatedState();
+    const Pose2 sensor{0.5, -0.2, 0.3};
+    const auto out = firstSight(state, detectionOf(8, 1.2), sensor, Consistency::classic);
+    const auto inverse = invertRangeBearing({1, 2, 0.5}, {8, 1.2}, sensor);
+    EXPECT_EQ(out.position, inverse.point);
+    EXPECT_EQ(out.G, inverse.G_robot);
+    EXPECT_TRUE(near(out.own, inverse.G_z * R * inverse.G_z.transpose(), 1e-15));
+}
+
+TEST(RangeBearingUpdateTest, FirstSightOfTheInvariantFilterHasTheMomentsOfTheBanana) {
+    // Point at range r = 10 + noise 0.1, bearing b = noise s: moments of (r cos b, r sin b) with b Gaussian
+    // are E cos b = exp(-s^2/2), E cos^2 b = (1 + exp(-2 s^2))/2, so that, with E r^2 = 100.01,
+    const double s = 0.1, s2 = s * s, r2 = 100.01;
+    const double mean = 10 * std::exp(-s2 / 2);
+    const double along = r2 * (1 + std::exp(-2 * s2)) / 2 - mean * mean,
+                 across = r2 * (1 - std::exp(-2 * s2)) / 2;
+    RangeBearingDetection detection = detectionOf(10, 0);
+    detection.covariance = Vector2(0.01, s2).asDiagonal();
+    const DenseJointState state({0, 0, 0}, Matrix3::Zero());
+    const auto out = firstSight(state, detection, {}, Consistency::invariant);
+    // Neglected: relative order s^4 / 8 of the mean, s^2 = 1 % of the variances.
+    EXPECT_NEAR(out.position.x(), mean, 10 * s2 * s2 / 8);
+    EXPECT_NEAR(out.position.x(), 10 * (1 - s2 / 2), 1e-14);
+    EXPECT_NEAR(out.own(0, 0), along, 0.03 * along);
+    EXPECT_NEAR(out.own(1, 1), across, 0.01 * across);
+    EXPECT_NEAR(out.own(0, 0), 0.01 + 0.5 * 0.1 * 0.1, 1e-14);  // sigma_r^2 + (d s^2)^2/2
+    // The classic filter misses a third of the variance along here.
+    EXPECT_LT(firstSight(state, detection, {}, Consistency::classic).own(0, 0), 0.7 * along);
+    // All Jacobians are taken at the shortened range.
+    EXPECT_NEAR(out.G(1, 2), 10 * (1 - s2 / 2), 1e-14);
+}
+
+}  // namespace
+}  // namespace slamot

@@ -1,0 +1,4 @@
+// A shared library with the right file name that is no plugin.
+extern "C" int somethingElse() {
+    return 1;
+}
