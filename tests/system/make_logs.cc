@@ -32,8 +32,9 @@ mrpt::obs::CObservation::Ptr odometry(double t, const std::string& label = "odom
 
 /// Landmarks on both sides of the way, as seen at time t; `edit` may spoil a reading.
 using Edit = std::function<void(RangeBearingReading::Item&)>;
-mrpt::obs::CObservationBearingRange::Ptr seen(double t, const std::string& label = "landmarks", double range_std = 0.1,
-                                              const Edit& edit = {}, int landmarks = 6) {
+mrpt::obs::CObservationBearingRange::Ptr seen(double t, const std::string& label = "landmarks",
+                                              double range_std = 0.1, const Edit& edit = {},
+                                              int landmarks = 6) {
     RangeBearingReading reading;
     reading.stamp = at(t);
     reading.sensor.label = label;
@@ -50,7 +51,8 @@ mrpt::obs::CObservationBearingRange::Ptr seen(double t, const std::string& label
     return toMrpt(reading, range_std, range_std / 10);
 }
 
-Observations drive(const std::function<mrpt::obs::CObservation::Ptr(double)>& sensor, bool with_odometry = true) {
+Observations drive(const std::function<mrpt::obs::CObservation::Ptr(double)>& sensor,
+                   bool with_odometry = true) {
     Observations log;
     for (int k = 0; k < steps; ++k) {
         if (with_odometry) log.push_back(odometry(k * dt));
@@ -65,7 +67,7 @@ void write(const std::string& file, const Observations& log) {
     writer.close();
 }
 
-void writeFrames(const std::string& file, bool with_holes) {
+void writeFrames(const std::string& file, bool with_holes, bool with_nan = false) {
     RawlogWriter writer(file);
     for (int k = 0; k < steps; ++k) {
         mrpt::obs::CActionCollection actions;
@@ -75,6 +77,7 @@ void writeFrames(const std::string& file, bool with_holes) {
             model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
             action.computeFromOdometry(mrpt::poses::CPose2D(speed * dt, 0, 0), model);
             action.timestamp = toMrpt(at((k + 1) * dt));
+            if (with_nan && k == 50) action.rawOdometryIncrementReading.x(std::nan(""));
             actions.insert(action);
         }
         mrpt::obs::CSensoryFrame frame;
@@ -100,7 +103,8 @@ int main(int argc, char** argv) {
     write(folder + "no_detections.rawlog", drive([](double) { return nullptr; }));
     write(folder + "unknown_labels.rawlog", drive([](double t) { return seen(t, "front camera"); }));
     write(folder + "no_noise.rawlog", drive([](double t) { return seen(t, "landmarks", 0); }));
-    write(folder + "odd_label.rawlog", drive([](double t) { return seen(t, t < 1 ? "a,b\n\"\xff" : "landmarks"); }));
+    write(folder + "odd_label.rawlog",
+          drive([](double t) { return seen(t, t < 1 ? "a,b\n\"\xff" : "landmarks"); }));
     write(folder + "some_unusable.rawlog", drive([&](double t) {
               return seen(t, "landmarks", 0.1, [&](auto& item) {
                   if (item.id.value == 1) item.range = nan;
@@ -112,8 +116,8 @@ int main(int argc, char** argv) {
           drive([&](double t) { return seen(t, "landmarks", 0.1, [&](auto& item) { item.range = nan; }); }));
 
     Observations back = drive(plain);
-    std::swap(back[20], back[24]);              // 0.2 s late: put in order
-    back.push_back(odometry(1.05));             // 8.85 s late: dropped
+    std::swap(back[20], back[24]);   // 0.2 s late: put in order
+    back.push_back(odometry(1.05));  // 8.85 s late: dropped
     write(folder + "time_back.rawlog", back);
 
     Observations invalid = drive(plain);
@@ -124,7 +128,8 @@ int main(int argc, char** argv) {
 
     Observations two = drive(plain);
     for (int k = 0; k < steps; ++k) two.push_back(odometry(k * dt, "visual"));
-    std::stable_sort(two.begin(), two.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+    std::stable_sort(two.begin(), two.end(),
+                     [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
     write(folder + "two_odometries.rawlog", two);
 
     // Many landmarks in sight all the time: slow enough to be interrupted on any machine.
@@ -137,5 +142,6 @@ int main(int argc, char** argv) {
 
     writeFrames(folder + "frames.rawlog", false);
     writeFrames(folder + "frames_with_holes.rawlog", true);
+    writeFrames(folder + "frames_with_nan.rawlog", false, true);
     return 0;
 }

@@ -1,9 +1,8 @@
 """Mistakes on the command line, in config and scenario files, and with plugins and folders."""
 import os
-import subprocess
 import unittest
 
-from program import DEMO, EKF, PROGRAM, SOURCE, SlamotTest
+from program import DEMO, EKF, PROGRAM, SlamotTest
 
 
 class Usage(SlamotTest):
@@ -89,9 +88,7 @@ class Configs(SlamotTest):
         self.run_config("", env=env)
         self.slamot("config", "ekf_slamto", code=2, says=["'ekf_slamto'", "did you mean 'ekf_slamot'?"])
         # A library that is no plugin: the record is missing.
-        core = next(p for p in (SOURCE / "build").glob("*/lib/libslamot_core.so") if p.exists()) \
-            if "SLAMOT_PROGRAM" not in os.environ else \
-            os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "lib", "libslamot_core.so")
+        core = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "lib", "libslamot_core.so")
         os.symlink(core, self.path("plugins/libslamot_core_again.so"))
         self.assertIn("is no slamot plugin", self.slamot("plugins", env=env).stderr)
 

@@ -68,6 +68,12 @@ class OddLogs(SlamotTest):
         self.assertEqual(counts["detections"], 600)
         self.assertEqual(counts["odometry_gaps"], 14)  # k = 3, 10, ..., 94
 
+    def test_an_action_that_is_no_number_ends_it(self):
+        for arguments in (["info", self.log("frames_with_nan")],
+                          ["convert", self.log("frames_with_nan"), "-o", "x.rawlog"]):
+            self.slamot(*arguments, code=2, says=["frames_with_nan.rawlog", "object", "not finite"])
+        self.run_log(self.log("frames_with_nan"), code=2, says=["frames_with_nan.rawlog", "object", "not finite"])
+
     def test_a_model_the_odometry_cannot_feed(self):
         self.run_log(self.log("frames"), "--set", "motion.model=steered", code=2, says=["[motion] model"])
 

@@ -5,6 +5,7 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "slamot/rawlog/LogError.h"
@@ -20,6 +21,15 @@ bool allFinite(std::initializer_list<double> values) {
     for (const double value : values)
         if (!std::isfinite(value)) return false;
     return true;
+}
+
+/// An enumeration that MRPT has read from a log unchecked: of a broken log it may hold any number.
+template <class Enum>
+int rawValue(const Enum& value) {
+    static_assert(sizeof(Enum) == sizeof(int));
+    int raw = 0;
+    std::memcpy(&raw, &value, sizeof raw);
+    return raw;
 }
 
 Matrix2 diagonal(double std_range, double std_bearing) {
@@ -63,13 +73,13 @@ mrpt::obs::CObservationOdometry::Ptr toMrpt(const OdometryReading& reading, cons
 
 OdometryIncrement fromMrpt(const mrpt::obs::CActionRobotMovement2D& action) {
     using mrpt::obs::CActionRobotMovement2D;
-    const bool odometry = action.estimationMethod == CActionRobotMovement2D::emOdometry;
+    const bool odometry = rawValue(action.estimationMethod) == CActionRobotMovement2D::emOdometry;
     OdometryIncrement increment;
     increment.increment =
         toPose2(odometry ? action.rawOdometryIncrementReading : action.poseChange->getMeanVal());
     // Thrun's model is drawn afresh with each reading of the log: no covariance that two runs would agree on.
     const bool sampled =
-        odometry && action.motionModelConfiguration.modelSelection == CActionRobotMovement2D::mmThrun;
+        odometry && rawValue(action.motionModelConfiguration.modelSelection) == CActionRobotMovement2D::mmThrun;
     if (!sampled) increment.covariance = action.poseChange->getCovariance().asEigen();
     const auto& v = action.velocityLocal;
     if (action.hasVelocities) increment.velocity = BodyVelocity{v.vx, v.vy, v.omega};
