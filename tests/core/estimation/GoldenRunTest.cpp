@@ -49,10 +49,11 @@ JointFilter goldenFilter(Consistency consistency) {
     parameters.outliers = OutlierTreatment::accept;
     parameters.target.kind = TargetModelKind::cv;
     parameters.target.noise_std = 0.1;
+    parameters.target.noise_interval = 0;
     ModelChange change;
     change.after = 100 * dt;
-    change.model.kind = TargetModelKind::ca;
-    change.model.noise_std = 1.8;
+    change.kind = TargetModelKind::ca;
+    change.noise_std = 1.8;
     parameters.target_schedule = {change};
     parameters.target_velocity_std = 3.0;
     parameters.target_acceleration_std = 2.0;

@@ -198,7 +198,7 @@ TEST(JointFilterTest, TheScheduleSwitchesAtTheTick) {
     JointFilterParameters parameters;
     ModelChange change;
     change.after = 1.0;
-    change.model.kind = TargetModelKind::ca;
+    change.kind = TargetModelKind::ca;
     parameters.target_schedule = {change};
     for (const auto& [begin, is_ca] :
          {std::pair{9'999'999L, false}, {10'000'000L, true}, {10'000'001L, true}}) {
@@ -364,8 +364,8 @@ TEST(JointFilterParametersTest, ScheduleIsReadAndWritten) {
     EXPECT_FALSE(schedule->parse("15:ca:1.8, 20.5 : cv"));
     ASSERT_EQ(parameters.target_schedule.size(), 2u);
     EXPECT_EQ(parameters.target_schedule[0].after, 15);
-    EXPECT_EQ(parameters.target_schedule[0].model.kind, TargetModelKind::ca);
-    EXPECT_EQ(parameters.target_schedule[0].model.noise_std, 1.8);
+    EXPECT_EQ(parameters.target_schedule[0].kind, TargetModelKind::ca);
+    EXPECT_EQ(parameters.target_schedule[0].noise_std, 1.8);
     EXPECT_EQ(parameters.target_schedule[1].after, 20.5);
     EXPECT_EQ(schedule->print(), "15:ca:1.8, 20.5:cv:0.5");
     for (const char* bad : {"15", "15:xx", "x:ca", "-1:ca", "15:ca:-1", "15:ca:1:2", "15:ca, 15:cv",

@@ -23,6 +23,7 @@ class FrontTestEstimator : public Estimator {
     PoseGaussian pose;
     std::vector<TrackEstimate> track_list;
     bool update_fails = false;
+    int report_offset = 0;
 
   protected:
     std::vector<ParameterTable> onParameters() override {
@@ -30,7 +31,7 @@ class FrontTestEstimator : public Estimator {
         table.real("gain", gain, "-", Interval::positive(), "A parameter.");
         return {table};
     }
-    void onInitialize() override {
+    void onInitialize(const Config&) override {
         if (gain > 100) throw ConfigError("front_test: gain above 100 makes no sense");
     }
     void onStart(const Start& start) override {
@@ -50,8 +51,9 @@ class FrontTestEstimator : public Estimator {
         UpdateReport report;
         for (std::size_t i = 0; i < set.rangeBearing().detections.size(); ++i) {
             Innovation innovation;
-            innovation.detection = static_cast<int>(i);
+            innovation.detection = static_cast<int>(i) + report_offset;
             innovation.outcome = all[i % 5];
+            if (!track_list.empty()) innovation.track = track_list.back().id;
             report.innovations.push_back(innovation);
         }
         return report;
@@ -243,8 +245,15 @@ TEST_F(EstimatorTest, NoticesAStateThatWentBad) {
     estimator_.track_list.resize(2);
     estimator_.track_list[1].id = {42};
     estimator_.track_list[1].covariance(5, 5) = -1;
-    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {})); }),
+    EXPECT_NO_THROW(estimator_.update(detectionsAt(10, {})));  // only what an update touched is looked at
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {good()})); }),
                 HasSubstr("track 42"));
+}
+
+TEST_F(EstimatorTest, NoticesAReportThatCannotBe) {
+    estimator_.report_offset = 1;
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {good()})); }),
+                HasSubstr("its report names detection 1 of 1"));
 }
 
 TEST_F(EstimatorTest, NumericalFailuresNameEstimatorAndTime) {

@@ -16,18 +16,21 @@ void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     objects_ = {};
 }
 
-const TargetModel& JointFilter::targetModelAt(Stamp stamp) const {
-    const TargetModel* model = &parameters_.target;
-    for (const ModelChange& change : parameters_.target_schedule)
-        if (stamp >= later(start_, change.after)) model = &change.model;
-    return *model;
+TargetModel JointFilter::targetModelAt(Stamp stamp) const {
+    TargetModel model = parameters_.target;
+    for (const ModelChange& change : parameters_.target_schedule) {
+        if (stamp < later(start_, change.after)) continue;
+        model.kind = change.kind;
+        model.noise_std = change.noise_std;
+    }
+    return model;
 }
 
 void JointFilter::predict(const OdometryIncrement& odometry) {
     const MotionPrediction robot = predictMotion(motion_, state_->mean(robot_block), odometry);
     state_->propagate(robot_block, robot.pose, robot.F, robot.Q);
 
-    const TargetModel& model = targetModelAt(odometry.t0);
+    const TargetModel model = targetModelAt(odometry.t0);
     for (const TrackRecord& track : objects_.tracks()) {
         const TargetPrediction target = predictTarget(model, state_->mean(track.block), odometry.seconds());
         state_->propagate(track.block, target.mean, target.F, target.Q);
@@ -98,7 +101,7 @@ Outcome JointFilter::addToBatch(const DetectionSet& set, int index, BlockId bloc
     if (linear.nis > gate && parameters_.outliers == OutlierTreatment::reject) return Outcome::rejected;
     if (linear.nis > gate && parameters_.outliers == OutlierTreatment::inflate) {
         outcome = Outcome::inflated;
-        linear.measurement.R *= std::pow(linear.nis / gate, 2);
+        linear.measurement.R += (std::pow(linear.nis / gate, 2) - 1.0) * detection.covariance;
     }
     batch_.push_back(linear.measurement);
     return outcome;

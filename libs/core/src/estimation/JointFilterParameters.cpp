@@ -15,8 +15,8 @@ const std::string schedule_expected =
 std::string scheduleText(const std::vector<ModelChange>& schedule) {
     std::string text;
     for (const ModelChange& change : schedule)
-        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after), change.model.name(),
-                            shortestText(change.model.noise_std));
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after), toText(change.kind),
+                            shortestText(change.noise_std));
     return text.empty() ? "none" : text;
 }
 
@@ -30,7 +30,7 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
     return parts;
 }
 
-/// Reads a schedule; the parts of a model that are not named keep their defaults.
+/// Reads a schedule; an entry without a noise has ModelChange's.
 std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text) {
     std::vector<ModelChange> schedule;
     if (text == "none" || text.empty()) return schedule;
@@ -38,17 +38,17 @@ std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text
     for (const std::string& entry : splitAt(text, ',')) {
         const auto parts = splitAt(entry, ':');
         if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
-        ModelChange change;
-        ParameterTable model("schedule", "");
-        describe(change.model, model);
+        TargetModel model;
+        model.noise_std = ModelChange{}.noise_std;
+        ParameterTable keys("schedule", "");
+        describe(model, keys);
         const auto after = numberFromText(parts[0]);
         if (!after || !std::isfinite(*after) || *after < 0 ||
             (!schedule.empty() && *after <= schedule.back().after))
             return std::nullopt;
-        change.after = *after;
-        if (model.find("model")->parse(parts[1])) return std::nullopt;
-        if (parts.size() == 3 && model.find("noise_std")->parse(parts[2])) return std::nullopt;
-        schedule.push_back(change);
+        if (keys.find("model")->parse(parts[1])) return std::nullopt;
+        if (parts.size() == 3 && keys.find("noise_std")->parse(parts[2])) return std::nullopt;
+        schedule.push_back({*after, model.kind, model.noise_std});
     }
     return schedule;
 }

@@ -39,7 +39,9 @@ Linearisation linearise(const JointState& state, BlockId block, const RangeBeari
         // Uncertainty across the line of sight lengthens the mean range by P_lat / 2d and spreads it by its square.
         Eigen::Matrix<double, 1, 5> lateral;
         lateral << h.across.transpose() * h.D_robot, h.across.transpose();
-        const double d = std::max(h.z.x(), range_floor), P_lat = lateral * P * lateral.transpose();
+        const double d = std::max(h.z.x(), range_floor);
+        // Beyond P_lat = d^2 the expansion means nothing and would throw the range about; it is held there.
+        const double P_lat = std::min((lateral * P * lateral.transpose()).value(), d * d);
         m.residual.x() -= P_lat / (2.0 * d);
         m.R(0, 0) += 0.5 * (P_lat / d) * (P_lat / d);
     }

@@ -105,7 +105,7 @@ Matrix6 unicycleNoise(const TargetModel& model, const Vector6& moved, double dt)
 
 }  // namespace
 
-std::string TargetModel::name() const {
+const char* toText(TargetModelKind kind) {
     switch (kind) {
         case TargetModelKind::cv: return "cv";
         case TargetModelKind::ca: return "ca";

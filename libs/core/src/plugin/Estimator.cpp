@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "slamot/core/estimation/Definiteness.h"
+#include "DetectionCheck.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Estimator, mrpt::rtti::CObject, slamot)
 
@@ -11,14 +15,6 @@ namespace {
 
 bool finite(const Pose2& pose) {
     return pose.vector().allFinite();
-}
-
-std::string why(const RangeBearingDetection& d, std::size_t sensors) {
-    if (!d.z().allFinite()) return "is not finite";
-    if (d.range <= 0) return "has a range that is not positive";
-    if (!isPositiveDefinite(d.covariance)) return "has a covariance that is not positive definite";
-    if (d.sensor < 0 || static_cast<std::size_t>(d.sensor) >= sensors) return "names no sensor of its set";
-    return {};
 }
 
 }  // namespace
@@ -33,7 +29,7 @@ std::vector<ParameterTable> Estimator::parameterTables() {
 void Estimator::initialize(const Config& config) {
     setLoggerName(name());
     for (const ParameterTable& table : onParameters()) load(table, config);
-    onInitialize();
+    onInitialize(config);
     initialized_ = true;
     started_ = false;
 }
@@ -67,10 +63,14 @@ void Estimator::predict(const OdometryIncrement& odometry) {
     if (odometry.covariance && !isPositiveSemidefinite(*odometry.covariance, definiteness_tolerance))
         throw EstimatorError(fmt::format("{}: odometry at {} has a covariance that is not positive semi-definite",
                                          name(), toText(odometry.t1)));
-    onPredict(odometry);
+    try {
+        onPredict(odometry);
+    } catch (const std::domain_error& error) {
+        throw EstimatorError(fmt::format("{}: predict to {}: {}", name(), toText(odometry.t1), error.what()));
+    }
     now_ = odometry.t1;
     ++health_.predictions;
-    checkState("predict");
+    checkRobot("predict");
 }
 
 UpdateReport Estimator::update(const DetectionSet& detections) {
@@ -80,7 +80,7 @@ UpdateReport Estimator::update(const DetectionSet& detections) {
                                          toText(now_)));
     const RangeBearingSet& set = detections.rangeBearing();
     for (std::size_t i = 0; i < set.detections.size(); ++i)
-        if (const std::string reason = why(set.detections[i], set.sensors.size()); !reason.empty())
+        if (const std::string reason = problemOf(set.detections[i], set.sensors.size()); !reason.empty())
             throw EstimatorError(
                 fmt::format("{}: detection {} at {} {}", name(), i, toText(detections.stamp), reason));
 
@@ -90,6 +90,7 @@ UpdateReport Estimator::update(const DetectionSet& detections) {
     } catch (const std::domain_error& error) {
         throw EstimatorError(fmt::format("{}: update at {}: {}", name(), toText(now_), error.what()));
     }
+    checkReport(report, set.detections.size());
     ++health_.updates;
     for (const Innovation& innovation : report.innovations) switch (innovation.outcome) {
             case Outcome::updated:
@@ -98,26 +99,52 @@ UpdateReport Estimator::update(const DetectionSet& detections) {
             case Outcome::rejected: ++health_.detections_rejected; break;
             case Outcome::ignored: ++health_.detections_ignored; break;
         }
-    checkState("update");
+    checkRobot("update");
+    checkTouched(report);
     return report;
 }
 
-void Estimator::checkState(const char* after) const {
+void Estimator::checkReport(const UpdateReport& report, std::size_t detections) const {
+    for (const Innovation& innovation : report.innovations) {
+        if (innovation.detection < 0 || static_cast<std::size_t>(innovation.detection) >= detections)
+            throw EstimatorError(fmt::format("{}: update at {}: its report names detection {} of {}", name(), toText(now_),
+                                             innovation.detection, detections));
+        if (std::isfinite(innovation.nis) && !isPositiveDefinite(innovation.covariance))
+            throw EstimatorError(fmt::format("{}: update at {}: innovation covariance S of detection {} is not positive "
+                                             "definite",
+                                             name(), toText(now_), innovation.detection));
+    }
+}
+
+void Estimator::checkRobot(const char* after) const {
     const PoseGaussian pose = onRobot();
     if (!finite(pose.mean) || !isPositiveSemidefinite(pose.covariance, definiteness_tolerance))
         throw EstimatorError(
             fmt::format("{}: after {} at {} the robot's pose is not finite or its covariance [x y theta] not positive "
                         "semi-definite",
                         name(), after, toText(now_)));
-    for (const TrackEstimate& track : onTracks())
+}
+
+void Estimator::checkTouched(const UpdateReport& report) const {
+    const auto touched = [&report](TrackId id) {
+        return std::any_of(report.innovations.begin(), report.innovations.end(),
+                           [id](const Innovation& innovation) { return innovation.track == id; });
+    };
+    const std::size_t modes = modeNames().size();
+    for (const TrackEstimate& track : onTracks()) {
+        if (!touched(track.id)) continue;
         if (!track.mean.allFinite() || !isPositiveSemidefinite(track.covariance, definiteness_tolerance))
-            throw EstimatorError(
-                fmt::format("{}: after {} at {} track {} is not finite or its covariance not positive semi-definite",
-                            name(), after, toText(now_), track.id.value));
-#ifndef NDEBUG
+            throw EstimatorError(fmt::format(
+                "{}: after update at {} track {} is not finite or its covariance not positive semi-definite", name(),
+                toText(now_), track.id.value));
+        if (track.mode_probabilities.size() != modes)
+            throw EstimatorError(fmt::format("{}: track {} has {} mode probabilities, modeNames() names {}", name(),
+                                             track.id.value, track.mode_probabilities.size(), modes));
+    }
+#if !defined(NDEBUG) || defined(SLAMOT_CHECK_JOINT)
     if (!isPositiveSemidefinite(onJointCovariance().matrix, definiteness_tolerance))
-        throw EstimatorError(fmt::format("{}: after {} at {} the joint covariance is not positive semi-definite",
-                                         name(), after, toText(now_)));
+        throw EstimatorError(fmt::format("{}: after update at {} the joint covariance is not positive semi-definite",
+                                         name(), toText(now_)));
 #endif
 }
 

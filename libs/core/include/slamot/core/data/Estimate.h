@@ -59,8 +59,8 @@ enum class Outcome {
 
 const char* toText(Outcome outcome);
 
-/// One detection's innovation; rows of innovations.csv. Residual and S are those of the plain measurement model
-/// at the predicted state, before any inflation; NaN where there was no prediction (initiated, ignored).
+/// One detection's innovation; rows of innovations.csv. Residual and S are those of the estimator's measurement model
+/// at the predicted state (an estimator may correct them to second order), before any inflation; NaN where there was no prediction (initiated, ignored).
 struct Innovation {
     int detection = -1;  ///< index in the DetectionSet
     ObjectKind kind = ObjectKind::unknown;

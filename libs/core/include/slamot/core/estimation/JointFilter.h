@@ -22,10 +22,12 @@ enum class OutlierTreatment {
     reject    ///< it is not used
 };
 
-/// A change of the movers' motion model at a known time: a filter that is told the mode.
+/// A change of the movers' motion at a known time: a filter that is told the mode. What is not named here stays as
+/// the target model has it.
 struct ModelChange {
     double after = 0;  ///< [s] since the start; holds for predictions that begin at or after it
-    TargetModel model;
+    TargetModelKind kind = TargetModelKind::cv;
+    double noise_std = 0.5;  ///< as TargetModel's
 };
 
 struct JointFilterParameters {
@@ -34,7 +36,8 @@ struct JointFilterParameters {
     OutlierTreatment outliers = OutlierTreatment::inflate;
     double gate_probability = 0.999;
 
-    TargetModel target;
+    /// Noise that does not depend on the odometry's rate, unless asked for.
+    TargetModel target{TargetModelKind::cv, 0.5, 0.1};
     /// "15:ca:1.8" = from 15 s on model ca with noise_std 1.8; several separated by commas.
     std::vector<ModelChange> target_schedule;
     double target_velocity_std = 3.0;      ///< [m/s] at first sight, when nothing is known
@@ -67,7 +70,7 @@ class JointFilter {
     const JointState& state() const { return *state_; }
 
    private:
-    const TargetModel& targetModelAt(Stamp stamp) const;
+    TargetModel targetModelAt(Stamp stamp) const;
     void endUnseenTracks(Stamp now);
     /// Finds the detection's object and, where there is one, puts the linearised detection into the batch.
     Innovation match(const DetectionSet& set, int index);

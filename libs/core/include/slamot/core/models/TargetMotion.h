@@ -17,6 +17,9 @@ enum class TargetModelKind {
     unicycle  ///< constant speed along the heading and a turn rate carried by the centripetal acceleration
 };
 
+/// The word for a model in configs and files.
+const char* toText(TargetModelKind kind);
+
 /// One motion model of a mover.
 struct TargetModel {
     TargetModelKind kind = TargetModelKind::cv;
@@ -30,7 +33,7 @@ struct TargetModel {
     double turn_rate = 0;          ///< [rad/s], ct
     double turn_rate_std = radians(10.0);    ///< [rad/s], unicycle: change of turn rate over noise_interval (or a step)
 
-    std::string name() const;
+    std::string name() const { return toText(kind); }
 };
 
 /// x' = f(x) without noise. Templates for automatic differentiation; all models commute with rotations of the

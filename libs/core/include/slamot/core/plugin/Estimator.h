@@ -98,8 +98,9 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     Estimator();
 
     virtual std::vector<ParameterTable> onParameters() = 0;
-    /// Parameters have been read; check what they say together. May throw ConfigError.
-    virtual void onInitialize() {}
+    /// Parameters have been read: check what they say together, open what they name (relative paths refer to
+    /// config.folder()). May throw ConfigError.
+    virtual void onInitialize(const Config& /*config*/) {}
     virtual void onStart(const Start& start) = 0;
     virtual void onPredict(const OdometryIncrement& odometry) = 0;
     virtual UpdateReport onUpdate(const DetectionSet& detections) = 0;
@@ -112,7 +113,10 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
 
    private:
     void requireStarted(const char* what) const;
-    void checkState(const char* after) const;
+    void checkReport(const UpdateReport& report, std::size_t detections) const;
+    void checkRobot(const char* after) const;
+    /// Tracks named in the report, and in debug and sanitizer builds the whole joint covariance.
+    void checkTouched(const UpdateReport& report) const;
 
     Start start_;
     Stamp now_;

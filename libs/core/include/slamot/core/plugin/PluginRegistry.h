@@ -29,8 +29,8 @@ struct RefusedPlugin {
 
 /// The plugins of this process. Load before starting threads.
 ///
-/// Folders are searched in this order: those of SLAMOT_PLUGIN_PATH (separated by ':'), the plugin folder beside
-/// the program's library, the install prefix. A name found in an earlier folder hides a later one; two modules of
+/// Folders are searched in this order: those of SLAMOT_PLUGIN_PATH (separated by ':'), then slamot/plugins beside the
+/// core library, which is the build's folder in a build tree and the prefix's when installed. A name found in an earlier folder hides a later one; two modules of
 /// one name or one class in the same folder are an error.
 class PluginRegistry {
    public:
