@@ -157,6 +157,19 @@ TEST_F(RunJobTest, LogsWithNothingToUseAreErrorsThatSayWhatWasFound) {
     EXPECT_THAT(error, HasSubstr("2 of 'odometry' (other-odometry)"));
 }
 
+TEST_F(RunJobTest, ARunThatIgnoredEveryDetectionIsAnErrorWithoutFinishedOutputs) {
+    writeLog(path("a.rawlog"), drive());
+    const std::string hidden = "[identities]\nlandmarks = hidden\nmovers = hidden\n";
+    const auto error = messageOf<LogError>([&] { runLog("a.rawlog", hidden); });
+    EXPECT_THAT(error, HasSubstr("any of the 120 detections"));  // 40 x (2 landmarks + 1 mover)
+    EXPECT_THAT(error, HasSubstr("identities"));
+    for (const std::string& name : outputs()) EXPECT_THAT(name, testing::EndsWith(".part"));
+
+    EXPECT_EQ(runLog("a.rawlog", hidden + "[run]\nestimator = dead_reckoning\n").status,
+              run::RunStatus::complete);
+    EXPECT_EQ(runLog("a.rawlog", "[identities]\nmovers = hidden\n").status, run::RunStatus::complete);
+}
+
 TEST_F(RunJobTest, EveryPluginsFullConfigRuns) {
     writeLog(path("a.rawlog"), drive());
     for (const PluginInfo& plugin : registry().plugins()) {

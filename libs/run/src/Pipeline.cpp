@@ -318,7 +318,7 @@ void Pipeline::closeStep() {
     step_ = {};
 }
 
-void Pipeline::finish(RunStatus status) {
+void Pipeline::drain() {
     if (!started_) return;
     const Stamp last_odometry = estimator_.time();
     for (const Held& held : held_) {
@@ -338,6 +338,11 @@ void Pipeline::finish(RunStatus status) {
         take(held);
     }
     held_.clear();
+}
+
+void Pipeline::finish(RunStatus status) {
+    if (!started_) return;
+    drain();
     closeStep();
 
     RunEnd end;

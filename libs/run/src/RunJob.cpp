@@ -86,6 +86,12 @@ void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std
         throw LogError(fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
                                    "[sensors], or lidar with a detector); {}{}",
                                    log, estimator.name(), dropsInWords(drops), detail));
+    const Health health = estimator.estimate().health;
+    if (estimator.usesDetections() && health.detections_ignored > 0 &&
+        health.detections_used + health.detections_inflated + health.detections_rejected == 0)
+        throw LogError(fmt::format("{}: {} had no use for any of the {} detections: it needs identities, but they are "
+                                   "hidden ([identities]), -1 in the log, or of sensors with role mixed",
+                                   log, estimator.name(), health.detections_ignored));
 }
 
 RunStatus statusOf(const RawlogReader& reader, bool stopped) {
@@ -126,11 +132,13 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
             break;
         }
     }
-    const RunStatus status = statusOf(reader, stopped);
-    pipeline.finish(status);
+    pipeline.drain();
     DropTable drops = reader.drops();
     for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
+    // Before any output gets its final name: a run that used nothing leaves none that looks finished.
     if (!stopped || !pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    const RunStatus status = statusOf(reader, stopped);
+    pipeline.finish(status);
 
     RunResult result;
     result.status = status;

@@ -35,7 +35,9 @@ class Pipeline {
              std::vector<Sink*> sinks);
 
     void push(const LogEntry& entry);
-    /// No more entries: processes what is held. `status` goes to the sinks.
+    /// No more entries: processes what is held. The sinks are not told of the end yet.
+    void drain();
+    /// Drains and tells the sinks that the run has ended, and how.
     void finish(RunStatus status);
 
     const DropTable& drops() const { return drops_; }
