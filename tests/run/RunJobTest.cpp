@@ -196,6 +196,21 @@ TEST_F(RunJobTest, AStopKeepsWhatWasDone) {
     for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
 }
 
+TEST_F(RunJobTest, AStopBeforeTheFirstOdometryIsAStopToo) {
+    writeLog(path("a.rawlog"), {detections(1, "landmarks", {{3, 0, 1}}), odometry(2, {}), odometry(3, {})});
+    const std::atomic<bool> stop{true};
+    run::RunRequest request;
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.stop = &stop;
+    const auto result = run::runLog(request, registry());
+    EXPECT_EQ(result.status, run::RunStatus::stopped);
+    EXPECT_EQ(result.summary["counts"]["odometry"], 0);
+    EXPECT_TRUE(eval::readRun(path("out")).trajectory.empty());
+    EXPECT_FALSE(result.writes_figure);
+    for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+}
+
 using Table = std::vector<std::vector<double>>;
 
 /// Paper 1's golden run (tests/data/golden/paper1): the same inputs as

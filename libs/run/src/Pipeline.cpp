@@ -341,15 +341,15 @@ void Pipeline::drain() {
 }
 
 void Pipeline::finish(RunStatus status) {
-    if (!started_) return;
     drain();
-    closeStep();
-
     RunEnd end;
     end.status = status;
-    end.estimate = estimator_.estimate();
-    end.landmarks = estimator_.landmarks();
-    end.estimator = &estimator_;
+    if (started_) {
+        closeStep();
+        end.estimate = estimator_.estimate();
+        end.landmarks = estimator_.landmarks();
+        end.estimator = &estimator_;
+    }
     for (Sink* sink : sinks_) sink->end(end);
 }
 

@@ -136,7 +136,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     DropTable drops = reader.drops();
     for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
     // Before any output gets its final name: a run that used nothing leaves none that looks finished.
-    if (!stopped || !pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
     const RunStatus status = statusOf(reader, stopped);
     pipeline.finish(status);
 
@@ -145,7 +145,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     result.end_message = reader.endMessage();
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
-    result.writes_figure = assembled.config.output.figure;
+    result.writes_figure = assembled.config.output.figure && pipeline.started();
 
     SummaryInput summary;
     summary.status = status;
@@ -162,7 +162,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     summary.timer = &timer;
     summary.drops = drops;
     summary.end = end.kept;
-    if (request.truth) {
+    if (request.truth && pipeline.started()) {
         const eval::Metrics metrics = eval::evaluate(result.record, *request.truth, evaluation);
         summary.metrics = eval::toJson(metrics);
         result.metrics_table = eval::summaryTable(metrics);

@@ -32,7 +32,7 @@ struct RunResult {
     std::string end_message;  ///< for truncated and corrupt logs
     std::string estimate_hash;
     std::string metrics_table;  ///< for the terminal; empty without truth
-    bool writes_figure = false;  ///< [output] figure; drawn by whoever can (libs/report)
+    bool writes_figure = false;  ///< [output] figure, if there is anything to draw; drawn by libs/report
     eval::RunRecord record;
     nlohmann::json summary;  ///< as in summary.json
 };
