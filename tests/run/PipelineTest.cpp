@@ -307,6 +307,25 @@ TEST_F(PipelineTest, AFrameWithoutAMovementIsAStandstillAndCounted) {
     EXPECT_EQ(pipeline->counts().odometry_gaps, 1);
 }
 
+TEST_F(PipelineTest, AfterAFailureEverySinkIsEndedOnceWithTheLastGoodStep) {
+    struct AsksTooMuch : run::Sink {
+        void step(const run::Step&) override {}
+        void end(const run::RunEnd&) override { throw EstimatorError("no joint covariance"); }
+    } asking;
+    spy->initialize(Config());
+    CollectingSink before, after;
+    pipeline = std::make_unique<run::Pipeline>(config, *spy, nullptr, nullptr, 1,
+                                               std::vector<run::Sink*>{&before, &asking, &after});
+    push({odometry(0, {}), odometry(1, {1, 0, 0})});
+    EXPECT_THROW(pipeline->finish(RunStatus::complete), EstimatorError);
+    pipeline->fail();
+    EXPECT_EQ(before.ends.size(), 1u);
+    ASSERT_EQ(after.ends.size(), 1u);
+    EXPECT_EQ(after.ends[0].status, RunStatus::failed);
+    EXPECT_EQ(after.ends[0].estimate.stamp, at(1));
+    EXPECT_EQ(after.ends[0].estimator, nullptr);
+}
+
 TEST_F(PipelineTest, OneStepPerStampAndOneEnd) {
     process({odometry(0, {}), detections(0.5, "landmarks", {{3, 0}}), odometry(1, {1, 0, 0}),
              detections(1, "landmarks", {{3, 0}}), odometry(2, {2, 0, 0})});

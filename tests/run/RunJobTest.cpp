@@ -211,6 +211,23 @@ TEST_F(RunJobTest, AStopBeforeTheFirstOdometryIsAStopToo) {
     for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
 }
 
+TEST_F(RunJobTest, AnEstimatorThatFailsLeavesWhatCameBeforeWithStatusFailed) {
+    auto log = drive();
+    log.push_back(odometry(8.2, {1e200, 0, 0}));  // its variance, about (1e200)^2, is no double any more
+    log.push_back(odometry(8.4, {1e200, 0, 0}));
+    writeLog(path("a.rawlog"), log);
+    const auto error = messageOf<EstimatorError>([&] { runLog("a.rawlog", ""); });
+    EXPECT_THAT(error, HasSubstr("ekf_slamot"));
+    const auto summary = nlohmann::json::parse(textOf(path("out/summary.json")));
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_EQ(summary["end_message"], error);
+    EXPECT_EQ(summary["counts"]["detections"], 120);
+    EXPECT_EQ(summary["counts"]["landmarks"], 2);
+    for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    // The last good step is that of the last odometry before the jump.
+    EXPECT_EQ(eval::readRun(path("out")).trajectory.back().stamp, at(8));
+}
+
 using Table = std::vector<std::vector<double>>;
 
 /// Paper 1's golden run (tests/data/golden/paper1): the same inputs as

@@ -315,6 +315,7 @@ void Pipeline::closeStep() {
     if (!touched.empty()) step_.touched = estimator_.landmarks(touched);
     counts_.times += step_.times;
     for (Sink* sink : sinks_) sink->step(step_);
+    last_estimate_ = std::move(step_.estimate);
     step_ = {};
 }
 
@@ -350,7 +351,18 @@ void Pipeline::finish(RunStatus status) {
         end.landmarks = estimator_.landmarks();
         end.estimator = &estimator_;
     }
-    for (Sink* sink : sinks_) sink->end(end);
+    endSinks(end);
+}
+
+void Pipeline::fail() {
+    RunEnd end;
+    end.status = RunStatus::failed;
+    end.estimate = last_estimate_;
+    endSinks(end);
+}
+
+void Pipeline::endSinks(const RunEnd& end) {
+    while (ended_ < sinks_.size()) sinks_[ended_++]->end(end);
 }
 
 }  // namespace slamot::run

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <memory>
 
@@ -100,6 +101,23 @@ RunStatus statusOf(const RawlogReader& reader, bool stopped) {
     return reader.end() == LogEnd::corrupt ? RunStatus::corrupt : RunStatus::complete;
 }
 
+/// Whether it was stopped before the log's end.
+bool pushAll(RawlogReader& reader, Pipeline& pipeline, const RunRequest& request) {
+    std::int64_t entries = 0;
+    while (auto entry = reader.next()) {
+        pipeline.push(*entry);
+        if (++entries % 64 == 0 && request.progress) request.progress(reader.progress());
+        if (request.stop && request.stop->load()) return true;
+    }
+    return false;
+}
+
+DropTable dropsOf(const RawlogReader& reader, const Pipeline& pipeline) {
+    DropTable drops = reader.drops();
+    for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
+    return drops;
+}
+
 }  // namespace
 
 RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
@@ -122,27 +140,28 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
 
     Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), request.truth, request.threads,
                       sinks);
-    std::int64_t entries = 0;
     bool stopped = false;
-    while (auto entry = reader.next()) {
-        pipeline.push(*entry);
-        if (++entries % 64 == 0 && request.progress) request.progress(reader.progress());
-        if (request.stop && request.stop->load()) {
-            stopped = true;
-            break;
-        }
+    std::exception_ptr failure;
+    std::string failure_message;
+    DropTable drops;
+    try {
+        stopped = pushAll(reader, pipeline, request);
+        pipeline.drain();
+        drops = dropsOf(reader, pipeline);
+        // Before any output gets its final name: a run that used nothing leaves none that looks finished.
+        if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+        pipeline.finish(statusOf(reader, stopped));
+    } catch (const EstimatorError& error) {
+        failure = std::current_exception();
+        failure_message = error.what();
+        drops = dropsOf(reader, pipeline);
+        pipeline.fail();
     }
-    pipeline.drain();
-    DropTable drops = reader.drops();
-    for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
-    // Before any output gets its final name: a run that used nothing leaves none that looks finished.
-    if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
-    const RunStatus status = statusOf(reader, stopped);
-    pipeline.finish(status);
+    const RunStatus status = failure ? RunStatus::failed : statusOf(reader, stopped);
 
     RunResult result;
     result.status = status;
-    result.end_message = reader.endMessage();
+    result.end_message = failure ? failure_message : reader.endMessage();
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
     result.writes_figure = assembled.config.output.figure && pipeline.started();
@@ -162,7 +181,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     summary.timer = &timer;
     summary.drops = drops;
     summary.end = end.kept;
-    if (request.truth && pipeline.started()) {
+    if (request.truth && pipeline.started() && !failure) {
         const eval::Metrics metrics = eval::evaluate(result.record, *request.truth, evaluation);
         summary.metrics = eval::toJson(metrics);
         result.metrics_table = eval::summaryTable(metrics);
@@ -174,6 +193,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     // Labels of a log may be no UTF-8.
     file.line(result.summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     file.close();
+    if (failure) std::rethrow_exception(failure);
     return result;
 }
 

@@ -40,6 +40,10 @@ class Pipeline {
     /// Drains and tells the sinks that the run has ended, and how.
     void finish(RunStatus status);
 
+    /// Ends what has not ended yet with status failed, after an EstimatorError: with the last estimate that went to
+    /// the sinks, without asking the estimator anything.
+    void fail();
+
     const DropTable& drops() const { return drops_; }
     const PipelineCounts& counts() const { return counts_; }
     bool started() const { return started_; }
@@ -71,6 +75,7 @@ class Pipeline {
     void appendReading(const RangeBearingReading& reading, RangeBearingSet& set);
     Matrix2 noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const;
     void closeStep();
+    void endSinks(const RunEnd& end);
 
     const RunConfig& config_;
     Estimator& estimator_;
@@ -87,6 +92,8 @@ class Pipeline {
     std::optional<OdometryIncrement> last_increment_;
     std::vector<Held> held_;  ///< in order of stamp
     Step step_;               ///< of the estimator's present time; goes to the sinks when time moves on
+    Estimate last_estimate_;  ///< of the last closed step
+    std::size_t ended_ = 0;   ///< sinks that know of the end
     std::string first_unusable_;
 };
 

@@ -38,7 +38,8 @@ struct RunResult {
 };
 
 /// Runs the log and writes all outputs. Throws ConfigError, PluginError, LogError or EstimatorError when there is
-/// nothing to write or the run cannot go on; a truncated log is a result with its status.
+/// nothing to write or the run cannot go on; a truncated log is a result with its status. After an EstimatorError the
+/// folder holds what came before, status failed.
 RunResult runLog(const RunRequest& request, const PluginRegistry& registry);
 
 }  // namespace slamot::run

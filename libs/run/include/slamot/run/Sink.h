@@ -42,7 +42,7 @@ struct RunEnd {
     RunStatus status = RunStatus::complete;
     Estimate estimate;
     std::vector<LandmarkEstimate> landmarks;
-    /// For what is expensive and only some sinks want. Null when there is none to ask: it was never started.
+    /// For what is expensive and only some sinks want. Null when there is none to ask: it was never started, or failed.
     const Estimator* estimator = nullptr;
 };
 
