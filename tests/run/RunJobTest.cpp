@@ -170,6 +170,22 @@ TEST_F(RunJobTest, ARunThatIgnoredEveryDetectionIsAnErrorWithoutFinishedOutputs)
     EXPECT_EQ(runLog("a.rawlog", "[identities]\nmovers = hidden\n").status, run::RunStatus::complete);
 }
 
+TEST_F(RunJobTest, LabelsThatTheLogDoesNotHaveAreWarnedOf) {
+    auto log = drive();
+    log.push_back(detections(1, "late", {{3, 0, 1}}));  // 7 s late: met, though it never reaches the pipeline
+    writeLog(path("a.rawlog"), log);
+    const auto result = runLog("a.rawlog",
+                               "[sensors]\nmovers = movers\nlandmark = landmarks\nlate = ignore\n"
+                               "[noise.mover]\nrange_std = 0.1\n[noise.landmarks]\nrange_std = 0.1\n");
+    ASSERT_EQ(result.warnings.size(), 2u);
+    EXPECT_EQ(result.warnings[0],
+              "[sensors] names sensor 'landmark', which the log does not have (did you mean 'landmarks'?)");
+    EXPECT_EQ(result.warnings[1],
+              "[noise.mover] names sensor 'mover', which the log does not have (did you mean 'movers'?)");
+    EXPECT_EQ(result.summary["warnings"], nlohmann::json(result.warnings));
+    EXPECT_TRUE(runLog("a.rawlog", "").warnings.empty());
+}
+
 TEST_F(RunJobTest, EveryPluginsFullConfigRuns) {
     writeLog(path("a.rawlog"), drive());
     for (const PluginInfo& plugin : registry().plugins()) {

@@ -78,6 +78,7 @@ void Pipeline::push(const LogEntry& entry) {
         return;
     }
     const mrpt::obs::CObservation& observation = *entry.observation;
+    labels_.insert(observation.sensorLabel);
     for (Sink* sink : sinks_) sink->observation(observation);
 
     if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {

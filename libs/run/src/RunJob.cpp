@@ -7,7 +7,9 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <set>
 
+#include "slamot/core/config/Parameters.h"
 #include "slamot/eval/Metrics.h"
 #include "slamot/rawlog/LogError.h"
 #include "slamot/run/CsvSinks.h"
@@ -118,6 +120,23 @@ DropTable dropsOf(const RawlogReader& reader, const Pipeline& pipeline) {
     return drops;
 }
 
+/// A label in the config that the log does not have is a slip that nothing else would show.
+std::vector<std::string> labelWarnings(const RunConfig& config, const Pipeline& pipeline, const DropTable& drops) {
+    std::set<std::string> met = pipeline.labels();
+    for (const auto& [key, count] : drops.rows()) met.insert(key.first);
+    const std::vector<std::string> words(met.begin(), met.end());
+    std::vector<std::string> warnings;
+    const auto check = [&](const std::string& section, const std::string& label) {
+        if (met.count(label)) return;
+        const auto near = nearestWord(label, words);
+        warnings.push_back(fmt::format("{} names sensor '{}', which the log does not have{}", section, label,
+                                       near ? " (did you mean '" + *near + "'?)" : ""));
+    };
+    for (const auto& [label, role] : config.sensors.by_label) check("[sensors]", label);
+    for (const auto& [label, noise] : config.noise_by_label) check("[noise." + label + "]", label);
+    return warnings;
+}
+
 }  // namespace
 
 RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
@@ -162,6 +181,8 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     RunResult result;
     result.status = status;
     result.end_message = failure ? failure_message : reader.endMessage();
+    // Of a log that was not read to its end, what is missing may come later.
+    if (status == RunStatus::complete) result.warnings = labelWarnings(assembled.config, pipeline, drops);
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
     result.writes_figure = assembled.config.output.figure && pipeline.started();
@@ -180,6 +201,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     summary.counts = &pipeline.counts();
     summary.timer = &timer;
     summary.drops = drops;
+    summary.warnings = result.warnings;
     summary.end = end.kept;
     if (request.truth && pipeline.started() && !failure) {
         const eval::Metrics metrics = eval::evaluate(result.record, *request.truth, evaluation);

@@ -52,6 +52,7 @@ nlohmann::json makeSummary(const SummaryInput& in) {
           {"landmarks", in.end.estimate.landmark_count},
           {"tracks_at_end", in.end.estimate.tracks.size()}}},
         {"drops", drops},
+        {"warnings", in.warnings},
         {"time",
          {{"wall_s", in.wall_seconds},
           {"cpu_s", in.cpu_seconds},

@@ -3,6 +3,7 @@
 // caller reads (or receives) entries in order and pushes them.
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ class Pipeline {
 
     const DropTable& drops() const { return drops_; }
     const PipelineCounts& counts() const { return counts_; }
+    /// Sensor labels met so far.
+    const std::set<std::string>& labels() const { return labels_; }
     bool started() const { return started_; }
     /// Why the first observation dropped as 'unusable' was, empty when none was.
     const std::string& firstUnusable() const { return first_unusable_; }
@@ -86,6 +89,7 @@ class Pipeline {
 
     DropTable drops_;
     PipelineCounts counts_;
+    std::set<std::string> labels_;
     bool started_ = false;
     std::string odometry_label_;
     std::optional<OdometryReading> last_reading_;

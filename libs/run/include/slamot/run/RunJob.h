@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,8 @@ struct RunRequest {
 struct RunResult {
     RunStatus status = RunStatus::complete;
     std::string end_message;  ///< for truncated and corrupt logs
+    /// Sentences on what is legal but hardly meant: labels in the config that the log does not have.
+    std::vector<std::string> warnings;
     std::string estimate_hash;
     std::string metrics_table;  ///< for the terminal; empty without truth
     bool writes_figure = false;  ///< [output] figure, if there is anything to draw; drawn by libs/report
