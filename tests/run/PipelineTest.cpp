@@ -176,6 +176,17 @@ TEST_F(PipelineTest, ScansWithoutADetectorAndForeignClassesAreCounted) {
     EXPECT_EQ(pipeline->counts().scans, 1);
 }
 
+TEST_F(PipelineTest, AScanIsLidarUnlessTheConfigSaysOtherwise) {
+    config.sensors.by_label = {{"front", SensorRole::movers}, {"rear", SensorRole::ignore}};
+    process({odometry(0, {}), scan(0.5, ""), scan(0.5, "landmarks"), scan(0.5, "front"), scan(0.5, "rear"),
+             odometry(1, {})});
+    // Taken for lidar, and missing nothing but a detector.
+    EXPECT_EQ(dropped("", "no-detector"), 1);
+    EXPECT_EQ(dropped("landmarks", "no-detector"), 1);
+    EXPECT_EQ(dropped("front", "role-is-not-lidar"), 1);
+    EXPECT_EQ(dropped("rear", "role-ignore"), 1);
+}
+
 TEST_F(PipelineTest, HiddenIdentitiesNeverReachTheEstimator) {
     for (const bool landmarks_hidden : {false, true})
         for (const bool movers_hidden : {false, true}) {

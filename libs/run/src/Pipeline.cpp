@@ -123,11 +123,14 @@ void Pipeline::pushIncrement(const OdometryIncrement& odometry) {
 
 void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
     ++counts_.scans;
-    const auto role = config_.sensors.of(scan->sensorLabel).value_or(SensorRole::lidar);
-    const char* reason = role != SensorRole::lidar ? "role-ignore"
-                         : !detector_              ? "no-detector"
-                         : !started_               ? "before-odometry"
-                                                   : nullptr;
+    // Only what the config says: what a label means by itself is about range-bearing sensors.
+    const auto said = config_.sensors.by_label.find(scan->sensorLabel);
+    const SensorRole role = said == config_.sensors.by_label.end() ? SensorRole::lidar : said->second;
+    const char* reason = role == SensorRole::ignore  ? "role-ignore"
+                         : role != SensorRole::lidar ? "role-is-not-lidar"
+                         : !detector_                ? "no-detector"
+                         : !started_                 ? "before-odometry"
+                                                     : nullptr;
     if (reason)
         drops_.add(scan->sensorLabel, reason);
     else
