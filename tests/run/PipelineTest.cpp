@@ -108,6 +108,16 @@ TEST_F(PipelineTest, DetectionsBeforeTheFirstOdometryAreDropped) {
     EXPECT_EQ(spy->begin.stamp, at(1));
 }
 
+TEST_F(PipelineTest, DetectionsThatComeFirstButAtTheStartAreUsed) {
+    process({detections(0.5, "landmarks", {{3, 0}}), detections(1, "landmarks", {{3, 0}}),
+             detections(1, "movers", {{4, 0}}), odometry(1, {}), odometry(2, {2, 0, 0})});
+    EXPECT_EQ(dropped("landmarks", "before-odometry"), 1);
+    ASSERT_EQ(spy->sets.size(), 1u);
+    EXPECT_EQ(spy->sets[0].stamp, at(1));
+    EXPECT_EQ(detectionsOf(spy->sets[0]).size(), 2u);
+    EXPECT_TRUE(near(spy->poses[0].vector(), Vector3(0, 0, 0), 0));
+}
+
 TEST_F(PipelineTest, LongOdometryIntervalsAreBridgedAndCounted) {
     config.max_odometry_gap = 1.0;
     process({odometry(0, {}), odometry(1, {1, 0, 0}), odometry(3, {3, 0, 0}), odometry(3.5, {4, 0, 0}),
@@ -303,6 +313,18 @@ TEST_F(PipelineTest, ActionFrameIncrementsMoveTheRobot) {
     EXPECT_NEAR(spy->poses[1].x, 5, rounding);
     EXPECT_EQ(spy->begin.stamp, at(0));
     EXPECT_EQ(pipeline->counts().odometry, 2);
+}
+
+TEST_F(PipelineTest, ASensoryFrameBeforeTheFirstActionLiesAtTheStart) {
+    begin();
+    pipeline->push(test::entryOf(detections(0, "", {{3, 0, 1}})));
+    pipeline->push(entryOf(increment(0, 1, 2)));
+    pipeline->push(test::entryOf(detections(1, "", {{3, 0, 1}})));
+    pipeline->finish(RunStatus::complete);
+    ASSERT_EQ(spy->poses.size(), 2u);
+    EXPECT_NEAR(spy->poses[0].x, 0, rounding);
+    EXPECT_NEAR(spy->poses[1].x, 2, rounding);
+    EXPECT_EQ(pipeline->drops().total(), 0);
 }
 
 TEST_F(PipelineTest, AFrameWithoutAMovementIsAStandstillAndCounted) {

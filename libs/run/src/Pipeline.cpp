@@ -129,7 +129,6 @@ void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
     const char* reason = role == SensorRole::ignore  ? "role-ignore"
                          : role != SensorRole::lidar ? "role-is-not-lidar"
                          : !detector_                ? "no-detector"
-                         : !started_                 ? "before-odometry"
                                                      : nullptr;
     if (reason)
         drops_.add(scan->sensorLabel, reason);
@@ -173,19 +172,28 @@ void Pipeline::pushDetections(const RangeBearingReading& reading) {
         drops_.add(reading.sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
         return;
     }
-    if (!started_) {
-        drops_.add(reading.sensor.label, "before-odometry");
-        return;
-    }
     holdFor(reading.stamp).readings.push_back(reading);
 }
 
 Pipeline::Held& Pipeline::holdFor(Stamp stamp) {
+    if (!started_) dropHeldBefore(stamp);  // the start comes no earlier than the newest entry
     if (held_.empty() || held_.back().stamp != stamp) held_.push_back({stamp, {}, {}});
     return held_.back();
 }
 
+void Pipeline::dropHeldBefore(Stamp stamp) {
+    const auto kept = std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.stamp >= stamp; });
+    for (auto held = held_.begin(); held != kept; ++held) drop(*held, "before-odometry");
+    held_.erase(held_.begin(), kept);
+}
+
+void Pipeline::drop(const Held& held, const std::string& reason) {
+    for (const auto& reading : held.readings) drops_.add(reading.sensor.label, reason);
+    for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, reason);
+}
+
 void Pipeline::start(Stamp stamp) {
+    dropHeldBefore(stamp);
     Start begin;
     begin.stamp = stamp;
     begin.seed = config_.seed;
@@ -324,14 +332,17 @@ void Pipeline::closeStep() {
 }
 
 void Pipeline::drain() {
-    if (!started_) return;
+    if (!started_) {
+        for (const Held& held : held_) drop(held, "before-odometry");
+        held_.clear();
+        return;
+    }
     const Stamp last_odometry = estimator_.time();
     for (const Held& held : held_) {
         const double beyond = secondsBetween(last_odometry, held.stamp);
         const bool reachable = beyond == 0 || (last_increment_ && beyond <= config_.max_odometry_gap);
         if (!reachable) {
-            for (const auto& reading : held.readings) drops_.add(reading.sensor.label, "after-odometry");
-            for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, "after-odometry");
+            drop(held, "after-odometry");
             continue;
         }
         if (beyond > 0) {

@@ -27,8 +27,8 @@ struct PipelineCounts {
 };
 
 /// Detections are held until odometry covering their stamp has arrived; that entry is then split at the stamp. All
-/// range-bearing observations of one stamp become one DetectionSet. Detections before the first odometry or too
-/// long after the last are dropped and counted.
+/// range-bearing observations of one stamp become one DetectionSet. Detections before the first odometry (not
+/// those of its very stamp, where the run starts) or too long after the last are dropped and counted.
 class Pipeline {
    public:
     /// `truth` may be null; it is read for `[start] pose = truth` only.
@@ -69,6 +69,8 @@ class Pipeline {
     void pushDetections(const RangeBearingReading& reading);
     void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);
     Held& holdFor(Stamp stamp);
+    void dropHeldBefore(Stamp stamp);
+    void drop(const Held& held, const std::string& reason);
     void start(Stamp stamp);
     /// Goes through an odometry entry, taking in what is held on the way.
     void advance(const OdometryIncrement& odometry);
