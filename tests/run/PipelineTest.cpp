@@ -118,6 +118,24 @@ TEST_F(PipelineTest, DetectionsThatComeFirstButAtTheStartAreUsed) {
     EXPECT_TRUE(near(spy->poses[0].vector(), Vector3(0, 0, 0), 0));
 }
 
+TEST_F(PipelineTest, DetectionsWaitThirtySecondsForOdometryToComeBack) {
+    push({odometry(0, {}), odometry(1, {1, 0, 0}), detections(31, "landmarks", {{3, 0}}),
+          detections(31.5, "landmarks", {{3, 0}}), detections(1000, "movers", {{3, 0}})});
+    // Dropped at once, not held to the end.
+    EXPECT_EQ(dropped("landmarks", "after-odometry"), 1);
+    EXPECT_EQ(dropped("movers", "after-odometry"), 1);
+    push({odometry(61, {61, 0, 0})});
+    ASSERT_EQ(spy->poses.size(), 1u);
+    EXPECT_NEAR(spy->poses[0].x, 31, 31 * rounding);  // 60 m in 60 s: half of the way after 30 s
+
+    pipeline.reset();
+    spy = std::make_shared<Spy>();
+    config.max_odometry_gap = 40;
+    push({odometry(0, {}), odometry(1, {1, 0, 0}), detections(41, "landmarks", {{3, 0}}),
+          detections(41.5, "landmarks", {{3, 0}})});
+    EXPECT_EQ(dropped("landmarks", "after-odometry"), 1);
+}
+
 TEST_F(PipelineTest, LongOdometryIntervalsAreBridgedAndCounted) {
     config.max_odometry_gap = 1.0;
     process({odometry(0, {}), odometry(1, {1, 0, 0}), odometry(3, {3, 0, 0}), odometry(3.5, {4, 0, 0}),

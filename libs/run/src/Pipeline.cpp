@@ -16,6 +16,10 @@
 namespace slamot::run {
 namespace {
 
+/// How long detections wait for odometry [s], unless max_odometry_gap is longer: more than any stall that a robot
+/// drives through, little enough to hold.
+constexpr double longest_wait = 30.0;
+
 /// Adds the wall time of its life to a stage.
 class StageClock {
    public:
@@ -132,8 +136,10 @@ void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
                                                      : nullptr;
     if (reason)
         drops_.add(scan->sensorLabel, reason);
+    else if (Held* held = holdFor(stamp))
+        held->scans.push_back(scan);
     else
-        holdFor(stamp).scans.push_back(scan);
+        drops_.add(scan->sensorLabel, "after-odometry");
 }
 
 void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& label) {
@@ -172,13 +178,19 @@ void Pipeline::pushDetections(const RangeBearingReading& reading) {
         drops_.add(reading.sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
         return;
     }
-    holdFor(reading.stamp).readings.push_back(reading);
+    if (Held* held = holdFor(reading.stamp))
+        held->readings.push_back(reading);
+    else
+        drops_.add(reading.sensor.label, "after-odometry");
 }
 
-Pipeline::Held& Pipeline::holdFor(Stamp stamp) {
-    if (!started_) dropHeldBefore(stamp);  // the start comes no earlier than the newest entry
+Pipeline::Held* Pipeline::holdFor(Stamp stamp) {
+    if (!started_)
+        dropHeldBefore(stamp);  // the start comes no earlier than the newest entry
+    else if (secondsBetween(estimator_.time(), stamp) > std::max(longest_wait, config_.max_odometry_gap))
+        return nullptr;
     if (held_.empty() || held_.back().stamp != stamp) held_.push_back({stamp, {}, {}});
-    return held_.back();
+    return &held_.back();
 }
 
 void Pipeline::dropHeldBefore(Stamp stamp) {

@@ -68,7 +68,8 @@ class Pipeline {
     void pushOdometry(const OdometryReading& reading, const std::string& label);
     void pushDetections(const RangeBearingReading& reading);
     void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);
-    Held& holdFor(Stamp stamp);
+    /// Where what was seen at `stamp` waits; null when that is too long after the last odometry.
+    Held* holdFor(Stamp stamp);
     void dropHeldBefore(Stamp stamp);
     void drop(const Held& held, const std::string& reason);
     void start(Stamp stamp);
