@@ -377,6 +377,18 @@ TEST_F(PipelineTest, AfterAFailureEverySinkIsEndedOnceWithTheLastGoodStep) {
     EXPECT_EQ(after.ends[0].estimator, nullptr);
 }
 
+TEST_F(PipelineTest, CpuTimeIsCountedByStageWhateverThreadUsedIt) {
+    spy->burn = 0.02;
+    process({odometry(0, {}), detections(0.5, "landmarks", {{3, 0}}), detections(0.6, "landmarks", {{3, 0}}),
+             odometry(1, {1, 0, 0})});
+    const run::StageTimes& times = pipeline->counts().times;
+    // Two updates burn 0.02 s each. CPU clocks tick in ns, so the sum may be short by rounding only.
+    EXPECT_GE(times.update_cpu, 0.0399);
+    EXPECT_GT(times.predict_cpu, 0);
+    EXPECT_LT(times.predict_cpu, times.update_cpu);
+    EXPECT_EQ(times.detect_cpu, 0);
+}
+
 TEST_F(PipelineTest, OneStepPerStampAndOneEnd) {
     process({odometry(0, {}), detections(0.5, "landmarks", {{3, 0}}), odometry(1, {1, 0, 0}),
              detections(1, "landmarks", {{3, 0}}), odometry(2, {2, 0, 0})});

@@ -64,6 +64,7 @@ TEST_F(RunJobTest, ArrivalInAnotherOrderGivesTheSameRun) {
     const auto in_order = runLog("a.rawlog", "");
     EXPECT_EQ(in_order.status, run::RunStatus::complete);
     EXPECT_EQ(in_order.summary["counts"]["detections"], 120);
+    EXPECT_GT(in_order.summary["time"]["update_cpu_s"], 0.0);
 
     // Every entry arrives up to half a second late, in an order made from a fixed seed.
     std::mt19937 engine(5);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "slamot/rawlog/LogError.h"
 
@@ -20,17 +21,27 @@ namespace {
 /// drives through, little enough to hold.
 constexpr double longest_wait = 30.0;
 
-/// Adds the wall time of its life to a stage.
+/// CPU time of the whole process [s]: what an estimator's threads use counts too.
+double cpuSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Adds the wall and CPU time of its life to a stage.
 class StageClock {
    public:
-    explicit StageClock(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+    StageClock(double& wall, double& cpu)
+        : wall_(wall), cpu_(cpu), wall_begin_(std::chrono::steady_clock::now()), cpu_begin_(cpuSeconds()) {}
     ~StageClock() {
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        cpu_ += cpuSeconds() - cpu_begin_;
+        wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin_).count();
     }
 
    private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point begin_;
+    double &wall_, &cpu_;
+    std::chrono::steady_clock::time_point wall_begin_;
+    double cpu_begin_;
 };
 
 bool isScan(const mrpt::obs::CObservation& observation) {
@@ -253,7 +264,7 @@ void Pipeline::predictTo(OdometryIncrement& rest, Stamp stamp) {
         rest = pieces.after;
     }
     closeStep();
-    const StageClock clock(step_.times.predict);
+    const StageClock clock(step_.times.predict, step_.times.predict_cpu);
     estimator_.predict(piece);
 }
 
@@ -264,16 +275,16 @@ void Pipeline::take(const Held& held) {
     for (const RangeBearingReading& reading : held.readings) appendReading(reading, range_bearing);
     std::vector<Detected> detected;
     for (const auto& scan : held.scans) {
-        const StageClock clock(step_.times.detect);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
         detected.push_back(detector_->detect(*scan, estimator_.robot()));
         appendSet(detected.back().detections, range_bearing);
     }
     {
-        const StageClock clock(step_.times.update);
+        const StageClock clock(step_.times.update, step_.times.update_cpu);
         step_.report = estimator_.update(set);
     }
     for (std::size_t i = 0; i < held.scans.size(); ++i) {
-        const StageClock clock(step_.times.detect);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
         detector_->integrate(*held.scans[i], estimator_.robot(), detected[i].classes);
     }
     step_.has_detections = true;
