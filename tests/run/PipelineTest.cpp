@@ -108,6 +108,34 @@ TEST_F(PipelineTest, DetectionsBeforeTheFirstOdometryAreDropped) {
     EXPECT_EQ(spy->begin.stamp, at(1));
 }
 
+TEST_F(PipelineTest, DetectionsThatComeFirstButAtTheStartAreUsed) {
+    process({detections(0.5, "landmarks", {{3, 0}}), detections(1, "landmarks", {{3, 0}}),
+             detections(1, "movers", {{4, 0}}), odometry(1, {}), odometry(2, {2, 0, 0})});
+    EXPECT_EQ(dropped("landmarks", "before-odometry"), 1);
+    ASSERT_EQ(spy->sets.size(), 1u);
+    EXPECT_EQ(spy->sets[0].stamp, at(1));
+    EXPECT_EQ(detectionsOf(spy->sets[0]).size(), 2u);
+    EXPECT_TRUE(near(spy->poses[0].vector(), Vector3(0, 0, 0), 0));
+}
+
+TEST_F(PipelineTest, DetectionsWaitThirtySecondsForOdometryToComeBack) {
+    push({odometry(0, {}), odometry(1, {1, 0, 0}), detections(31, "landmarks", {{3, 0}}),
+          detections(31.5, "landmarks", {{3, 0}}), detections(1000, "movers", {{3, 0}})});
+    // Dropped at once, not held to the end.
+    EXPECT_EQ(dropped("landmarks", "after-odometry"), 1);
+    EXPECT_EQ(dropped("movers", "after-odometry"), 1);
+    push({odometry(61, {61, 0, 0})});
+    ASSERT_EQ(spy->poses.size(), 1u);
+    EXPECT_NEAR(spy->poses[0].x, 31, 31 * rounding);  // 60 m in 60 s: half of the way after 30 s
+
+    pipeline.reset();
+    spy = std::make_shared<Spy>();
+    config.max_odometry_gap = 40;
+    push({odometry(0, {}), odometry(1, {1, 0, 0}), detections(41, "landmarks", {{3, 0}}),
+          detections(41.5, "landmarks", {{3, 0}})});
+    EXPECT_EQ(dropped("landmarks", "after-odometry"), 1);
+}
+
 TEST_F(PipelineTest, LongOdometryIntervalsAreBridgedAndCounted) {
     config.max_odometry_gap = 1.0;
     process({odometry(0, {}), odometry(1, {1, 0, 0}), odometry(3, {3, 0, 0}), odometry(3.5, {4, 0, 0}),
@@ -174,6 +202,17 @@ TEST_F(PipelineTest, ScansWithoutADetectorAndForeignClassesAreCounted) {
     process({odometry(0, {}), scan(0.5, "laser"), odometry(1, {})});
     EXPECT_EQ(dropped("laser", "no-detector"), 1);
     EXPECT_EQ(pipeline->counts().scans, 1);
+}
+
+TEST_F(PipelineTest, AScanIsLidarUnlessTheConfigSaysOtherwise) {
+    config.sensors.by_label = {{"front", SensorRole::movers}, {"rear", SensorRole::ignore}};
+    process({odometry(0, {}), scan(0.5, ""), scan(0.5, "landmarks"), scan(0.5, "front"), scan(0.5, "rear"),
+             odometry(1, {})});
+    // Taken for lidar, and missing nothing but a detector.
+    EXPECT_EQ(dropped("", "no-detector"), 1);
+    EXPECT_EQ(dropped("landmarks", "no-detector"), 1);
+    EXPECT_EQ(dropped("front", "role-is-not-lidar"), 1);
+    EXPECT_EQ(dropped("rear", "role-ignore"), 1);
 }
 
 TEST_F(PipelineTest, HiddenIdentitiesNeverReachTheEstimator) {
@@ -294,6 +333,18 @@ TEST_F(PipelineTest, ActionFrameIncrementsMoveTheRobot) {
     EXPECT_EQ(pipeline->counts().odometry, 2);
 }
 
+TEST_F(PipelineTest, ASensoryFrameBeforeTheFirstActionLiesAtTheStart) {
+    begin();
+    pipeline->push(test::entryOf(detections(0, "", {{3, 0, 1}})));
+    pipeline->push(entryOf(increment(0, 1, 2)));
+    pipeline->push(test::entryOf(detections(1, "", {{3, 0, 1}})));
+    pipeline->finish(RunStatus::complete);
+    ASSERT_EQ(spy->poses.size(), 2u);
+    EXPECT_NEAR(spy->poses[0].x, 0, rounding);
+    EXPECT_NEAR(spy->poses[1].x, 2, rounding);
+    EXPECT_EQ(pipeline->drops().total(), 0);
+}
+
 TEST_F(PipelineTest, AFrameWithoutAMovementIsAStandstillAndCounted) {
     begin();
     pipeline->push(entryOf(increment(0, 1, 2)));
@@ -305,6 +356,37 @@ TEST_F(PipelineTest, AFrameWithoutAMovementIsAStandstillAndCounted) {
     EXPECT_NEAR(spy->poses[0].x, 2, rounding);
     EXPECT_NEAR(spy->poses[1].x, 6, rounding);
     EXPECT_EQ(pipeline->counts().odometry_gaps, 1);
+}
+
+TEST_F(PipelineTest, AfterAFailureEverySinkIsEndedOnceWithTheLastGoodStep) {
+    struct AsksTooMuch : run::Sink {
+        void step(const run::Step&) override {}
+        void end(const run::RunEnd&) override { throw EstimatorError("no joint covariance"); }
+    } asking;
+    spy->initialize(Config());
+    CollectingSink before, after;
+    pipeline = std::make_unique<run::Pipeline>(config, *spy, nullptr, nullptr, 1,
+                                               std::vector<run::Sink*>{&before, &asking, &after});
+    push({odometry(0, {}), odometry(1, {1, 0, 0})});
+    EXPECT_THROW(pipeline->finish(RunStatus::complete), EstimatorError);
+    pipeline->fail();
+    EXPECT_EQ(before.ends.size(), 1u);
+    ASSERT_EQ(after.ends.size(), 1u);
+    EXPECT_EQ(after.ends[0].status, RunStatus::failed);
+    EXPECT_EQ(after.ends[0].estimate.stamp, at(1));
+    EXPECT_EQ(after.ends[0].estimator, nullptr);
+}
+
+TEST_F(PipelineTest, CpuTimeIsCountedByStageWhateverThreadUsedIt) {
+    spy->burn = 0.02;
+    process({odometry(0, {}), detections(0.5, "landmarks", {{3, 0}}), detections(0.6, "landmarks", {{3, 0}}),
+             odometry(1, {1, 0, 0})});
+    const run::StageTimes& times = pipeline->counts().times;
+    // Two updates burn 0.02 s each. CPU clocks tick in ns, so the sum may be short by rounding only.
+    EXPECT_GE(times.update_cpu, 0.0399);
+    EXPECT_GT(times.predict_cpu, 0);
+    EXPECT_LT(times.predict_cpu, times.update_cpu);
+    EXPECT_EQ(times.detect_cpu, 0);
 }
 
 TEST_F(PipelineTest, OneStepPerStampAndOneEnd) {

@@ -64,6 +64,7 @@ TEST_F(RunJobTest, ArrivalInAnotherOrderGivesTheSameRun) {
     const auto in_order = runLog("a.rawlog", "");
     EXPECT_EQ(in_order.status, run::RunStatus::complete);
     EXPECT_EQ(in_order.summary["counts"]["detections"], 120);
+    EXPECT_GT(in_order.summary["time"]["update_cpu_s"], 0.0);
 
     // Every entry arrives up to half a second late, in an order made from a fixed seed.
     std::mt19937 engine(5);
@@ -157,6 +158,35 @@ TEST_F(RunJobTest, LogsWithNothingToUseAreErrorsThatSayWhatWasFound) {
     EXPECT_THAT(error, HasSubstr("2 of 'odometry' (other-odometry)"));
 }
 
+TEST_F(RunJobTest, ARunThatIgnoredEveryDetectionIsAnErrorWithoutFinishedOutputs) {
+    writeLog(path("a.rawlog"), drive());
+    const std::string hidden = "[identities]\nlandmarks = hidden\nmovers = hidden\n";
+    const auto error = messageOf<LogError>([&] { runLog("a.rawlog", hidden); });
+    EXPECT_THAT(error, HasSubstr("any of the 120 detections"));  // 40 x (2 landmarks + 1 mover)
+    EXPECT_THAT(error, HasSubstr("identities"));
+    for (const std::string& name : outputs()) EXPECT_THAT(name, testing::EndsWith(".part"));
+
+    EXPECT_EQ(runLog("a.rawlog", hidden + "[run]\nestimator = dead_reckoning\n").status,
+              run::RunStatus::complete);
+    EXPECT_EQ(runLog("a.rawlog", "[identities]\nmovers = hidden\n").status, run::RunStatus::complete);
+}
+
+TEST_F(RunJobTest, LabelsThatTheLogDoesNotHaveAreWarnedOf) {
+    auto log = drive();
+    log.push_back(detections(1, "late", {{3, 0, 1}}));  // 7 s late: met, though it never reaches the pipeline
+    writeLog(path("a.rawlog"), log);
+    const auto result = runLog("a.rawlog",
+                               "[sensors]\nmovers = movers\nlandmark = landmarks\nlate = ignore\n"
+                               "[noise.mover]\nrange_std = 0.1\n[noise.landmarks]\nrange_std = 0.1\n");
+    ASSERT_EQ(result.warnings.size(), 2u);
+    EXPECT_EQ(result.warnings[0],
+              "[sensors] names sensor 'landmark', which the log does not have (did you mean 'landmarks'?)");
+    EXPECT_EQ(result.warnings[1],
+              "[noise.mover] names sensor 'mover', which the log does not have (did you mean 'movers'?)");
+    EXPECT_EQ(result.summary["warnings"], nlohmann::json(result.warnings));
+    EXPECT_TRUE(runLog("a.rawlog", "").warnings.empty());
+}
+
 TEST_F(RunJobTest, EveryPluginsFullConfigRuns) {
     writeLog(path("a.rawlog"), drive());
     for (const PluginInfo& plugin : registry().plugins()) {
@@ -181,6 +211,38 @@ TEST_F(RunJobTest, AStopKeepsWhatWasDone) {
     EXPECT_LT(result.summary["counts"]["detections"], 120);
     EXPECT_GT(eval::readRun(path("out")).trajectory.size(), 5u);
     for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+}
+
+TEST_F(RunJobTest, AStopBeforeTheFirstOdometryIsAStopToo) {
+    writeLog(path("a.rawlog"), {detections(1, "landmarks", {{3, 0, 1}}), odometry(2, {}), odometry(3, {})});
+    const std::atomic<bool> stop{true};
+    run::RunRequest request;
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.stop = &stop;
+    const auto result = run::runLog(request, registry());
+    EXPECT_EQ(result.status, run::RunStatus::stopped);
+    EXPECT_EQ(result.summary["counts"]["odometry"], 0);
+    EXPECT_TRUE(eval::readRun(path("out")).trajectory.empty());
+    EXPECT_FALSE(result.writes_figure);
+    for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+}
+
+TEST_F(RunJobTest, AnEstimatorThatFailsLeavesWhatCameBeforeWithStatusFailed) {
+    auto log = drive();
+    log.push_back(odometry(8.2, {1e200, 0, 0}));  // its variance, about (1e200)^2, is no double any more
+    log.push_back(odometry(8.4, {1e200, 0, 0}));
+    writeLog(path("a.rawlog"), log);
+    const auto error = messageOf<EstimatorError>([&] { runLog("a.rawlog", ""); });
+    EXPECT_THAT(error, HasSubstr("ekf_slamot"));
+    const auto summary = nlohmann::json::parse(textOf(path("out/summary.json")));
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_EQ(summary["end_message"], error);
+    EXPECT_EQ(summary["counts"]["detections"], 120);
+    EXPECT_EQ(summary["counts"]["landmarks"], 2);
+    for (const std::string& name : outputs()) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    // The last good step is that of the last odometry before the jump.
+    EXPECT_EQ(eval::readRun(path("out")).trajectory.back().stamp, at(8));
 }
 
 using Table = std::vector<std::vector<double>>;

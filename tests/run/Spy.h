@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "slamot/rawlog/Conventions.h"
@@ -32,6 +34,8 @@ class Spy : public Estimator {
     /// The robot's pose at each set.
     std::vector<Pose2> poses;
     std::string missing;
+    /// CPU time that each update burns [s], in a thread of its own.
+    double burn = 0;
 
   protected:
     std::vector<ParameterTable> onParameters() override { return {}; }
@@ -46,11 +50,22 @@ class Spy : public Estimator {
     UpdateReport onUpdate(const DetectionSet& detections) override {
         sets.push_back(detections);
         poses.push_back(pose_.mean);
+        if (burn > 0) std::thread([this] { burnCpu(burn); }).join();
         return {};
     }
     PoseGaussian onRobot() const override { return pose_; }
 
   private:
+    static void burnCpu(double seconds) {
+        const auto used = [] {
+            timespec now{};
+            clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+            return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+        };
+        while (used() < seconds) {
+        }
+    }
+
     PoseGaussian pose_;
 };
 

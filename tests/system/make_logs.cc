@@ -115,6 +115,10 @@ int main(int argc, char** argv) {
     write(folder + "all_nan.rawlog",
           drive([&](double t) { return seen(t, "landmarks", 0.1, [&](auto& item) { item.range = nan; }); }));
 
+    write(folder + "no_identities.rawlog", drive([](double t) {
+              return seen(t, "landmarks", 0.1, [](auto& item) { item.id = SourceId{}; });
+          }));
+
     Observations back = drive(plain);
     std::swap(back[20], back[24]);   // 0.2 s late: put in order
     back.push_back(odometry(1.05));  // 8.85 s late: dropped

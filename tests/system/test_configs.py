@@ -6,6 +6,13 @@ from program import DEMO, EKF, PROGRAM, SlamotTest
 
 
 class Usage(SlamotTest):
+    def test_a_label_that_the_log_does_not_have(self):
+        done = self.run_log(self.logs / "good.rawlog", "--set", "sensors.landmark=landmarks")
+        self.assertEqual(done.stderr, "slamot: warning: [sensors] names sensor 'landmark', which the log does not have "
+                                      "(did you mean 'landmarks'?)\n")
+        self.assertEqual(len(self.summary()["warnings"]), 1)
+        self.assertEqual(self.run_log(self.logs / "good.rawlog").stderr, "")
+
     def test_the_command_line(self):
         self.slamot(code=2, says=["subcommand"])
         self.slamot("simulat", code=2, says=["'simulat'", "did you mean 'simulate'?"])

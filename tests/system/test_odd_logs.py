@@ -18,6 +18,14 @@ class OddLogs(SlamotTest):
         self.run_log(self.log("no_detections"), config=DEAD_RECKONING)
         self.assertIn("needs detections", self.slamot("info", self.log("no_detections")).stdout)
 
+    def test_without_identities(self):
+        self.run_log(self.log("no_identities"), code=2, says=["no_identities.rawlog", "600 detections", "identities"])
+        self.assertEqual(self.partFiles(), sorted(p.name for p in self.path("out").iterdir()))
+        told = self.slamot("info", self.log("no_identities")).stdout
+        self.assertRegex(told, r"ekf_slamot +needs identities, the log has none")
+        self.assertRegex(told, r"dead_reckoning +can use it")
+        self.assertRegex(self.slamot("info", self.log("good")).stdout, r"ekf_slamot +can use it")
+
     def test_with_unknown_labels_only(self):
         self.run_log(self.log("unknown_labels"), code=2, says=["100 of 'front camera' (no-role-in-[sensors])"])
         self.run_log(self.log("unknown_labels"), "--set", "sensors.front camera=landmarks")

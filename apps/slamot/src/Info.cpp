@@ -28,11 +28,13 @@ void printSensors(const LogSummary& summary) {
 /// What estimators need, against what the log has.
 void printUses(const LogSummary& summary) {
     bool odometry = summary.format == LogFormat::action_frames, velocities = false, detections = false, lidar = false;
+    bool identities = false;
     for (const SensorSummary& s : summary.sensors) {
         odometry |= s.class_name.find("Odometry") != std::string::npos ||
                     s.class_name.find("RobotMovement2D") != std::string::npos;
         velocities |= s.has_velocities;
         detections |= s.detections > 0;
+        identities |= s.identified > 0;
         lidar |= s.class_name.find("Scan") != std::string::npos || s.class_name.find("PointCloud") != std::string::npos;
     }
     fmt::print("odometry: {}\n", !odometry   ? "none: no estimator can run"
@@ -46,7 +48,10 @@ void printUses(const LogSummary& summary) {
     for (const PluginInfo& plugin : registry.plugins()) {
         if (plugin.kind != "estimator") continue;
         const bool needs = registry.createEstimator(plugin.name)->usesDetections();
-        fmt::print("  {:16} {}\n", plugin.name, !needs || detections ? "can use it" : "needs detections");
+        fmt::print("  {:16} {}\n", plugin.name,
+                   !needs || identities ? "can use it"
+                   : detections         ? "needs identities, the log has none"
+                                        : "needs detections");
     }
 }
 

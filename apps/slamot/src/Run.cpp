@@ -89,6 +89,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
         request.progress = [&](double done) { progress.show(done); };
         result = run::runLog(request, registry);
     }
+    for (const std::string& warning : result.warnings) fmt::print(stderr, "slamot: warning: {}\n", warning);
     if (result.writes_figure) writeOverview(result, request.truth, options);
     if (!verbosity.quiet) printSummary(result, options, verbosity);
     switch (result.status) {

@@ -31,6 +31,7 @@ void LandmarkMapSink::end(const RunEnd& end) {
 }
 
 void CorrelationSink::end(const RunEnd& end) {
+    if (!end.estimator) return;
     const Eigen::MatrixXd P = end.estimator->jointCovariance().matrix;
     if (P.size() == 0) return;
     constexpr Eigen::Index largest = 512;

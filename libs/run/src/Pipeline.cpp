@@ -10,23 +10,38 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::run {
 namespace {
 
-/// Adds the wall time of its life to a stage.
+/// How long detections wait for odometry [s], unless max_odometry_gap is longer: more than any stall that a robot
+/// drives through, little enough to hold.
+constexpr double longest_wait = 30.0;
+
+/// CPU time of the whole process [s]: what an estimator's threads use counts too.
+double cpuSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Adds the wall and CPU time of its life to a stage.
 class StageClock {
    public:
-    explicit StageClock(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+    StageClock(double& wall, double& cpu)
+        : wall_(wall), cpu_(cpu), wall_begin_(std::chrono::steady_clock::now()), cpu_begin_(cpuSeconds()) {}
     ~StageClock() {
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        cpu_ += cpuSeconds() - cpu_begin_;
+        wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin_).count();
     }
 
    private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point begin_;
+    double &wall_, &cpu_;
+    std::chrono::steady_clock::time_point wall_begin_;
+    double cpu_begin_;
 };
 
 bool isScan(const mrpt::obs::CObservation& observation) {
@@ -78,6 +93,7 @@ void Pipeline::push(const LogEntry& entry) {
         return;
     }
     const mrpt::obs::CObservation& observation = *entry.observation;
+    labels_.insert(observation.sensorLabel);
     for (Sink* sink : sinks_) sink->observation(observation);
 
     if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
@@ -122,15 +138,19 @@ void Pipeline::pushIncrement(const OdometryIncrement& odometry) {
 
 void Pipeline::pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp) {
     ++counts_.scans;
-    const auto role = config_.sensors.of(scan->sensorLabel).value_or(SensorRole::lidar);
-    const char* reason = role != SensorRole::lidar ? "role-ignore"
-                         : !detector_              ? "no-detector"
-                         : !started_               ? "before-odometry"
-                                                   : nullptr;
+    // Only what the config says: what a label means by itself is about range-bearing sensors.
+    const auto said = config_.sensors.by_label.find(scan->sensorLabel);
+    const SensorRole role = said == config_.sensors.by_label.end() ? SensorRole::lidar : said->second;
+    const char* reason = role == SensorRole::ignore  ? "role-ignore"
+                         : role != SensorRole::lidar ? "role-is-not-lidar"
+                         : !detector_                ? "no-detector"
+                                                     : nullptr;
     if (reason)
         drops_.add(scan->sensorLabel, reason);
+    else if (Held* held = holdFor(stamp))
+        held->scans.push_back(scan);
     else
-        holdFor(stamp).scans.push_back(scan);
+        drops_.add(scan->sensorLabel, "after-odometry");
 }
 
 void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& label) {
@@ -169,19 +189,34 @@ void Pipeline::pushDetections(const RangeBearingReading& reading) {
         drops_.add(reading.sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
         return;
     }
-    if (!started_) {
-        drops_.add(reading.sensor.label, "before-odometry");
-        return;
-    }
-    holdFor(reading.stamp).readings.push_back(reading);
+    if (Held* held = holdFor(reading.stamp))
+        held->readings.push_back(reading);
+    else
+        drops_.add(reading.sensor.label, "after-odometry");
 }
 
-Pipeline::Held& Pipeline::holdFor(Stamp stamp) {
+Pipeline::Held* Pipeline::holdFor(Stamp stamp) {
+    if (!started_)
+        dropHeldBefore(stamp);  // the start comes no earlier than the newest entry
+    else if (secondsBetween(estimator_.time(), stamp) > std::max(longest_wait, config_.max_odometry_gap))
+        return nullptr;
     if (held_.empty() || held_.back().stamp != stamp) held_.push_back({stamp, {}, {}});
-    return held_.back();
+    return &held_.back();
+}
+
+void Pipeline::dropHeldBefore(Stamp stamp) {
+    const auto kept = std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.stamp >= stamp; });
+    for (auto held = held_.begin(); held != kept; ++held) drop(*held, "before-odometry");
+    held_.erase(held_.begin(), kept);
+}
+
+void Pipeline::drop(const Held& held, const std::string& reason) {
+    for (const auto& reading : held.readings) drops_.add(reading.sensor.label, reason);
+    for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, reason);
 }
 
 void Pipeline::start(Stamp stamp) {
+    dropHeldBefore(stamp);
     Start begin;
     begin.stamp = stamp;
     begin.seed = config_.seed;
@@ -229,7 +264,7 @@ void Pipeline::predictTo(OdometryIncrement& rest, Stamp stamp) {
         rest = pieces.after;
     }
     closeStep();
-    const StageClock clock(step_.times.predict);
+    const StageClock clock(step_.times.predict, step_.times.predict_cpu);
     estimator_.predict(piece);
 }
 
@@ -240,16 +275,16 @@ void Pipeline::take(const Held& held) {
     for (const RangeBearingReading& reading : held.readings) appendReading(reading, range_bearing);
     std::vector<Detected> detected;
     for (const auto& scan : held.scans) {
-        const StageClock clock(step_.times.detect);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
         detected.push_back(detector_->detect(*scan, estimator_.robot()));
         appendSet(detected.back().detections, range_bearing);
     }
     {
-        const StageClock clock(step_.times.update);
+        const StageClock clock(step_.times.update, step_.times.update_cpu);
         step_.report = estimator_.update(set);
     }
     for (std::size_t i = 0; i < held.scans.size(); ++i) {
-        const StageClock clock(step_.times.detect);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
         detector_->integrate(*held.scans[i], estimator_.robot(), detected[i].classes);
     }
     step_.has_detections = true;
@@ -315,18 +350,22 @@ void Pipeline::closeStep() {
     if (!touched.empty()) step_.touched = estimator_.landmarks(touched);
     counts_.times += step_.times;
     for (Sink* sink : sinks_) sink->step(step_);
+    last_estimate_ = std::move(step_.estimate);
     step_ = {};
 }
 
-void Pipeline::finish(RunStatus status) {
-    if (!started_) return;
+void Pipeline::drain() {
+    if (!started_) {
+        for (const Held& held : held_) drop(held, "before-odometry");
+        held_.clear();
+        return;
+    }
     const Stamp last_odometry = estimator_.time();
     for (const Held& held : held_) {
         const double beyond = secondsBetween(last_odometry, held.stamp);
         const bool reachable = beyond == 0 || (last_increment_ && beyond <= config_.max_odometry_gap);
         if (!reachable) {
-            for (const auto& reading : held.readings) drops_.add(reading.sensor.label, "after-odometry");
-            for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, "after-odometry");
+            drop(held, "after-odometry");
             continue;
         }
         if (beyond > 0) {
@@ -338,14 +377,30 @@ void Pipeline::finish(RunStatus status) {
         take(held);
     }
     held_.clear();
-    closeStep();
+}
 
+void Pipeline::finish(RunStatus status) {
+    drain();
     RunEnd end;
     end.status = status;
-    end.estimate = estimator_.estimate();
-    end.landmarks = estimator_.landmarks();
-    end.estimator = &estimator_;
-    for (Sink* sink : sinks_) sink->end(end);
+    if (started_) {
+        closeStep();
+        end.estimate = estimator_.estimate();
+        end.landmarks = estimator_.landmarks();
+        end.estimator = &estimator_;
+    }
+    endSinks(end);
+}
+
+void Pipeline::fail() {
+    RunEnd end;
+    end.status = RunStatus::failed;
+    end.estimate = last_estimate_;
+    endSinks(end);
+}
+
+void Pipeline::endSinks(const RunEnd& end) {
+    while (ended_ < sinks_.size()) sinks_[ended_++]->end(end);
 }
 
 }  // namespace slamot::run

@@ -4,9 +4,12 @@
 
 #include <chrono>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <set>
 
+#include "slamot/core/config/Parameters.h"
 #include "slamot/eval/Metrics.h"
 #include "slamot/rawlog/LogError.h"
 #include "slamot/run/CsvSinks.h"
@@ -86,12 +89,52 @@ void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std
         throw LogError(fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
                                    "[sensors], or lidar with a detector); {}{}",
                                    log, estimator.name(), dropsInWords(drops), detail));
+    const Health health = estimator.estimate().health;
+    if (estimator.usesDetections() && health.detections_ignored > 0 &&
+        health.detections_used + health.detections_inflated + health.detections_rejected == 0)
+        throw LogError(fmt::format("{}: {} had no use for any of the {} detections: it needs identities, but they are "
+                                   "hidden ([identities]), -1 in the log, or of sensors with role mixed",
+                                   log, estimator.name(), health.detections_ignored));
 }
 
 RunStatus statusOf(const RawlogReader& reader, bool stopped) {
     if (stopped) return RunStatus::stopped;
     if (reader.end() == LogEnd::truncated) return RunStatus::truncated;
     return reader.end() == LogEnd::corrupt ? RunStatus::corrupt : RunStatus::complete;
+}
+
+/// Whether it was stopped before the log's end.
+bool pushAll(RawlogReader& reader, Pipeline& pipeline, const RunRequest& request) {
+    std::int64_t entries = 0;
+    while (auto entry = reader.next()) {
+        pipeline.push(*entry);
+        if (++entries % 64 == 0 && request.progress) request.progress(reader.progress());
+        if (request.stop && request.stop->load()) return true;
+    }
+    return false;
+}
+
+DropTable dropsOf(const RawlogReader& reader, const Pipeline& pipeline) {
+    DropTable drops = reader.drops();
+    for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
+    return drops;
+}
+
+/// A label in the config that the log does not have is a slip that nothing else would show.
+std::vector<std::string> labelWarnings(const RunConfig& config, const Pipeline& pipeline, const DropTable& drops) {
+    std::set<std::string> met = pipeline.labels();
+    for (const auto& [key, count] : drops.rows()) met.insert(key.first);
+    const std::vector<std::string> words(met.begin(), met.end());
+    std::vector<std::string> warnings;
+    const auto check = [&](const std::string& section, const std::string& label) {
+        if (met.count(label)) return;
+        const auto near = nearestWord(label, words);
+        warnings.push_back(fmt::format("{} names sensor '{}', which the log does not have{}", section, label,
+                                       near ? " (did you mean '" + *near + "'?)" : ""));
+    };
+    for (const auto& [label, role] : config.sensors.by_label) check("[sensors]", label);
+    for (const auto& [label, noise] : config.noise_by_label) check("[noise." + label + "]", label);
+    return warnings;
 }
 
 }  // namespace
@@ -116,28 +159,33 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
 
     Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), request.truth, request.threads,
                       sinks);
-    std::int64_t entries = 0;
     bool stopped = false;
-    while (auto entry = reader.next()) {
-        pipeline.push(*entry);
-        if (++entries % 64 == 0 && request.progress) request.progress(reader.progress());
-        if (request.stop && request.stop->load()) {
-            stopped = true;
-            break;
-        }
+    std::exception_ptr failure;
+    std::string failure_message;
+    DropTable drops;
+    try {
+        stopped = pushAll(reader, pipeline, request);
+        pipeline.drain();
+        drops = dropsOf(reader, pipeline);
+        // Before any output gets its final name: a run that used nothing leaves none that looks finished.
+        if (!stopped) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+        pipeline.finish(statusOf(reader, stopped));
+    } catch (const EstimatorError& error) {
+        failure = std::current_exception();
+        failure_message = error.what();
+        drops = dropsOf(reader, pipeline);
+        pipeline.fail();
     }
-    const RunStatus status = statusOf(reader, stopped);
-    pipeline.finish(status);
-    DropTable drops = reader.drops();
-    for (const auto& [key, count] : pipeline.drops().rows()) drops.add(key.first, key.second, count);
-    if (!stopped || !pipeline.started()) requireUsed(pipeline, *assembled.estimator, request.log_file, drops);
+    const RunStatus status = failure ? RunStatus::failed : statusOf(reader, stopped);
 
     RunResult result;
     result.status = status;
-    result.end_message = reader.endMessage();
+    result.end_message = failure ? failure_message : reader.endMessage();
+    // Of a log that was not read to its end, what is missing may come later.
+    if (status == RunStatus::complete) result.warnings = labelWarnings(assembled.config, pipeline, drops);
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
-    result.writes_figure = assembled.config.output.figure;
+    result.writes_figure = assembled.config.output.figure && pipeline.started();
 
     SummaryInput summary;
     summary.status = status;
@@ -153,8 +201,9 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     summary.counts = &pipeline.counts();
     summary.timer = &timer;
     summary.drops = drops;
+    summary.warnings = result.warnings;
     summary.end = end.kept;
-    if (request.truth) {
+    if (request.truth && pipeline.started() && !failure) {
         const eval::Metrics metrics = eval::evaluate(result.record, *request.truth, evaluation);
         summary.metrics = eval::toJson(metrics);
         result.metrics_table = eval::summaryTable(metrics);
@@ -166,6 +215,7 @@ RunResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     // Labels of a log may be no UTF-8.
     file.line(result.summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     file.close();
+    if (failure) std::rethrow_exception(failure);
     return result;
 }
 

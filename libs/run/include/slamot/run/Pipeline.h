@@ -3,6 +3,7 @@
 // caller reads (or receives) entries in order and pushes them.
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ struct PipelineCounts {
 };
 
 /// Detections are held until odometry covering their stamp has arrived; that entry is then split at the stamp. All
-/// range-bearing observations of one stamp become one DetectionSet. Detections before the first odometry or too
-/// long after the last are dropped and counted.
+/// range-bearing observations of one stamp become one DetectionSet. Detections before the first odometry (not
+/// those of its very stamp, where the run starts) or too long after the last are dropped and counted.
 class Pipeline {
    public:
     /// `truth` may be null; it is read for `[start] pose = truth` only.
@@ -35,11 +36,19 @@ class Pipeline {
              std::vector<Sink*> sinks);
 
     void push(const LogEntry& entry);
-    /// No more entries: processes what is held. `status` goes to the sinks.
+    /// No more entries: processes what is held. The sinks are not told of the end yet.
+    void drain();
+    /// Drains and tells the sinks that the run has ended, and how.
     void finish(RunStatus status);
+
+    /// Ends what has not ended yet with status failed, after an EstimatorError: with the last estimate that went to
+    /// the sinks, without asking the estimator anything.
+    void fail();
 
     const DropTable& drops() const { return drops_; }
     const PipelineCounts& counts() const { return counts_; }
+    /// Sensor labels met so far.
+    const std::set<std::string>& labels() const { return labels_; }
     bool started() const { return started_; }
     /// Why the first observation dropped as 'unusable' was, empty when none was.
     const std::string& firstUnusable() const { return first_unusable_; }
@@ -59,7 +68,10 @@ class Pipeline {
     void pushOdometry(const OdometryReading& reading, const std::string& label);
     void pushDetections(const RangeBearingReading& reading);
     void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);
-    Held& holdFor(Stamp stamp);
+    /// Where what was seen at `stamp` waits; null when that is too long after the last odometry.
+    Held* holdFor(Stamp stamp);
+    void dropHeldBefore(Stamp stamp);
+    void drop(const Held& held, const std::string& reason);
     void start(Stamp stamp);
     /// Goes through an odometry entry, taking in what is held on the way.
     void advance(const OdometryIncrement& odometry);
@@ -69,6 +81,7 @@ class Pipeline {
     void appendReading(const RangeBearingReading& reading, RangeBearingSet& set);
     Matrix2 noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const;
     void closeStep();
+    void endSinks(const RunEnd& end);
 
     const RunConfig& config_;
     Estimator& estimator_;
@@ -79,12 +92,15 @@ class Pipeline {
 
     DropTable drops_;
     PipelineCounts counts_;
+    std::set<std::string> labels_;
     bool started_ = false;
     std::string odometry_label_;
     std::optional<OdometryReading> last_reading_;
     std::optional<OdometryIncrement> last_increment_;
     std::vector<Held> held_;  ///< in order of stamp
     Step step_;               ///< of the estimator's present time; goes to the sinks when time moves on
+    Estimate last_estimate_;  ///< of the last closed step
+    std::size_t ended_ = 0;   ///< sinks that know of the end
     std::string first_unusable_;
 };
 

@@ -21,6 +21,7 @@ enum class SensorRole { landmarks, movers, mixed, lidar, ignore };
 /// label counts as landmarks, scans as lidar; observations of any other label need a line here to be used.
 struct SensorRoles {
     std::map<std::string, SensorRole> by_label;
+    /// Of a range-bearing sensor.
     std::optional<SensorRole> of(const std::string& label) const;
 };
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -30,15 +31,18 @@ struct RunRequest {
 struct RunResult {
     RunStatus status = RunStatus::complete;
     std::string end_message;  ///< for truncated and corrupt logs
+    /// Sentences on what is legal but hardly meant: labels in the config that the log does not have.
+    std::vector<std::string> warnings;
     std::string estimate_hash;
     std::string metrics_table;  ///< for the terminal; empty without truth
-    bool writes_figure = false;  ///< [output] figure; drawn by whoever can (libs/report)
+    bool writes_figure = false;  ///< [output] figure, if there is anything to draw; drawn by libs/report
     eval::RunRecord record;
     nlohmann::json summary;  ///< as in summary.json
 };
 
 /// Runs the log and writes all outputs. Throws ConfigError, PluginError, LogError or EstimatorError when there is
-/// nothing to write or the run cannot go on; a truncated log is a result with its status.
+/// nothing to write or the run cannot go on; a truncated log is a result with its status. After an EstimatorError the
+/// folder holds what came before, status failed.
 RunResult runLog(const RunRequest& request, const PluginRegistry& registry);
 
 }  // namespace slamot::run

@@ -14,13 +14,17 @@ namespace slamot::run {
 enum class RunStatus { complete, stopped, truncated, corrupt, failed };
 const char* toText(RunStatus status);
 
-/// Wall time [s] by stage.
+/// Wall time and CPU time [s] by stage; CPU time of all threads.
 struct StageTimes {
     double predict = 0, detect = 0, update = 0;
+    double predict_cpu = 0, detect_cpu = 0, update_cpu = 0;
     StageTimes& operator+=(const StageTimes& other) {
         predict += other.predict;
         detect += other.detect;
         update += other.update;
+        predict_cpu += other.predict_cpu;
+        detect_cpu += other.detect_cpu;
+        update_cpu += other.update_cpu;
         return *this;
     }
 };
@@ -42,7 +46,7 @@ struct RunEnd {
     RunStatus status = RunStatus::complete;
     Estimate estimate;
     std::vector<LandmarkEstimate> landmarks;
-    /// For what is expensive and only some sinks want.
+    /// For what is expensive and only some sinks want. Null when there is none to ask: it was never started, or failed.
     const Estimator* estimator = nullptr;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ struct SummaryInput {
     const PipelineCounts* counts = nullptr;
     const StepTimer* timer = nullptr;
     DropTable drops;
+    std::vector<std::string> warnings;
     RunEnd end;
     double wall_seconds = 0, cpu_seconds = 0;
     nlohmann::json metrics;  ///< null without truth
