@@ -1,11 +1,12 @@
 """What must work: a log made, looked at, run, measured again, converted."""
+import gzip
 import json
 import re
 import shutil
 import subprocess
 import unittest
 
-from program import DEMO, EKF, SlamotTest
+from program import DEMO, EKF, SOURCE, SlamotTest
 
 
 class GoodPaths(SlamotTest):
@@ -30,6 +31,18 @@ class GoodPaths(SlamotTest):
         tum = json.loads(self.path("tum.json").read_text())
         # Poses go through sines and cosines of half angles: rounding of metres.
         self.assertAlmostEqual(tum["ate"]["position"]["rmse"], summary["metrics"]["ate"]["position"]["rmse"], delta=1e-9)
+
+    def test_the_shipped_log_is_what_its_command_makes_and_runs(self):
+        shipped = SOURCE / "rawlogs/demo.rawlog"
+        self.slamot("simulate", DEMO, "-o", "demo.rawlog")
+        self.assertEqual(gzip.decompress(self.path("demo.rawlog").read_bytes()), gzip.decompress(shipped.read_bytes()))
+        self.slamot("run", SOURCE / "config/runs/demo.ini", shipped, "-o", "out")
+        self.assertLess(self.summary()["metrics"]["robot"]["position"]["rmse"], 1.0)
+
+    def test_every_shipped_scenario_makes_a_log(self):
+        for scenario in sorted((SOURCE / "config/scenarios").glob("*.ini")):
+            with self.subTest(scenario=scenario.name):
+                self.slamot("-q", "simulate", scenario, "-o", f"{scenario.stem}.rawlog")
 
     def test_the_same_seed_gives_the_same_bytes(self):
         self.demo()
