@@ -108,7 +108,9 @@ TEST(SummaryTable, WideNumbersStayApart) {
     for (RobotRow& r : c.run.trajectory) r.robot.mean.x -= 1.23456e7;
     const std::string text = summaryTable(evaluate(c.run, c.truth, {}));
     expectNarrow(text);
-    EXPECT_THAT(text, HasSubstr(" 1.235e+07"));
+    // 1.23456e7 in the eight characters of a cell, one blank before it; every number of the row.
+    EXPECT_THAT(text,
+                HasSubstr("robot position [m]               1.23e+07 1.23e+07 1.23e+07 1.23e+07       11\n"));
 }
 
 TEST(Options, DefaultsAreLegalAndRoundTrip) {

@@ -79,9 +79,29 @@ TEST(TrackSetDistance, MeansOverStampsWithoutGaps) {
 
 TEST(TrackSetDistance, SaysWhatIsMissing) {
     RunRecord run;
-    EXPECT_EQ(trackSetDistance(run, {}, {}).whyAbsent(), "the run has no tracks");
-    run.tracks[at(0)] = {track(0, -1, 0, 0)};
     EXPECT_EQ(trackSetDistance(run, {}, {}).whyAbsent(), "truth has no targets");
+    Truth truth;
+    truth.targets[SourceId{7}] = {trueTarget(0, 0, 0), trueTarget(9, 0, 0)};
+    EXPECT_EQ(trackSetDistance(run, truth, {}).whyAbsent(), "the run has no trajectory");
+    run.trajectory = {row(4, 0, 0, 0)};
+    EXPECT_EQ(trackSetDistance(run, truth, {}).whyAbsent(),
+              "truth of the targets has a gap at every stamp of the run");
+}
+
+TEST(TrackSetDistance, ARunWithoutTracksHasMissedAll) {
+    RunRecord run;
+    run.trajectory = {row(0, 0, 0, 0), row(1, 0, 0, 0)};
+    Truth truth;
+    truth.targets[SourceId{7}] = {trueTarget(0, 0, 0), trueTarget(1, 0, 0)};
+    truth.targets[SourceId{8}] = {trueTarget(0, 9, 0), trueTarget(1, 9, 0)};
+    // Order 2, cutoff 5. OSPA: sqrt((0 + 2 x 25) / 2); GOSPA: sqrt(2 x 25 / 2).
+    const auto d = trackSetDistance(run, truth, {});
+    ASSERT_TRUE(d);
+    EXPECT_EQ(d->stamps, 2);
+    EXPECT_DOUBLE_EQ(d->mean.ospa.total, 5);
+    EXPECT_DOUBLE_EQ(d->mean.ospa.cardinality, 5);
+    EXPECT_DOUBLE_EQ(d->mean.gospa.total, 5);
+    EXPECT_EQ(d->mean.gospa.missed_count, 2);
 }
 
 TEST(LandmarkSetDistance, OfTheFinalMap) {

@@ -75,8 +75,9 @@ TEST(Tracks, CountsWhatIsNotMatched) {
 TEST(Tracks, WhileSeenTakesOnlyStampsWithAnUsedDetection) {
     RunRecord run;
     Truth truth;
-    // Errors 1, 2, 3, 4 m at 0, 1, 2, 3 s; seen at 0 (initiated) and 2 (updated), rejected at 3.
-    for (int i = 0; i < 4; ++i) {
+    // Errors 1, 2, 3, 4, 5 m at 0, 1, 2, 3, 4 s; seen at 0 (initiated), 2 (updated) and 4 (updated with an
+    // inflated covariance), rejected at 3.
+    for (int i = 0; i < 5; ++i) {
         run.trajectory.push_back(row(i, 0, 0, 0));
         run.tracks[at(i)] = {track(0, 7, i + 1.0, 0)};
         truth.targets[SourceId{7}].push_back(trueTarget(i, 0, 0));
@@ -84,14 +85,15 @@ TEST(Tracks, WhileSeenTakesOnlyStampsWithAnUsedDetection) {
     run.innovations = {innovation(0, "m", ObjectKind::mover, Outcome::initiated, std::nan(""), 0),
                        innovation(2, "m", ObjectKind::mover, Outcome::updated, 1, 0),
                        innovation(3, "m", ObjectKind::mover, Outcome::rejected, 40, 0),
+                       innovation(4, "m", ObjectKind::mover, Outcome::inflated, 9, 0),
                        innovation(1, "m", ObjectKind::mover, Outcome::updated, 1, 55)};
     const auto m = targetMetrics(run, truth, {});
     ASSERT_TRUE(m);
-    EXPECT_EQ(m->all.position.count, 4);
-    EXPECT_DOUBLE_EQ(m->all.position.median, 2.5);
+    EXPECT_EQ(m->all.position.count, 5);
+    EXPECT_DOUBLE_EQ(m->all.position.median, 3);
     ASSERT_TRUE(m->seen);
-    EXPECT_EQ(m->seen->position.count, 2);
-    EXPECT_DOUBLE_EQ(m->seen->position.rmse, std::sqrt((1.0 + 9.0) / 2));
+    EXPECT_EQ(m->seen->position.count, 3);
+    EXPECT_DOUBLE_EQ(m->seen->position.rmse, std::sqrt((1.0 + 9.0 + 25.0) / 3));
 }
 
 TEST(Tracks, SaysWhatIsMissing) {

@@ -94,8 +94,9 @@ std::optional<Points> trueTargets(const Truth& truth, Stamp stamp) {
 Measured<TrackSetDistance> trackSetDistance(const RunRecord& run, const Truth& truth,
                                             const EvaluationOptions& options) {
     using Result = Measured<TrackSetDistance>;
-    if (run.tracks.empty()) return Result::absent("the run has no tracks");
+    // A run without a track has missed every target, which is what the distance is to tell.
     if (truth.targets.empty()) return Result::absent("truth has no targets");
+    if (run.trajectory.empty()) return Result::absent("the run has no trajectory");
 
     TrackSetDistance result;
     std::vector<SetDistance> distances;

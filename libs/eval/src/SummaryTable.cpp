@@ -9,7 +9,7 @@
 namespace slamot::eval {
 namespace {
 
-constexpr std::size_t width = 80;
+constexpr std::size_t width = 80, cell_width = 8;
 
 /// One block of the table: a head and rows of a name and right-aligned cells, 32 + 5 x 9 columns at most.
 class Block {
@@ -23,7 +23,7 @@ class Block {
   private:
     static std::string line(const std::string& name, const std::vector<std::string>& cells) {
         std::string text = fmt::format("{:<32.32}", name);
-        for (const std::string& cell : cells) text += fmt::format(" {:>8}", cell);
+        for (const std::string& cell : cells) text += fmt::format(" {:>{}}", cell, cell_width);
         return text + "\n";
     }
     std::string title_;
@@ -31,8 +31,13 @@ class Block {
     std::string rows_;
 };
 
+/// Four digits, or as many as a cell has room for.
 std::string cell(double value) {
-    return std::isnan(value) ? "-" : fmt::format("{:.4g}", value);
+    if (std::isnan(value)) return "-";
+    std::string text;
+    for (int digits = 4; digits > 0; --digits)
+        if (text = fmt::format("{:.{}g}", value, digits); text.size() <= cell_width) break;
+    return text;
 }
 std::string percent(double part) {
     return std::isnan(part) ? "-" : fmt::format("{:.1f} %", 100 * part);

@@ -17,12 +17,15 @@ struct Sample {
 
 using SeenSet = std::set<std::pair<Stamp, TrackId>>;
 
+/// Whether the detection went into the track; one weighted down did.
+bool isSight(Outcome outcome) {
+    return outcome == Outcome::updated || outcome == Outcome::inflated || outcome == Outcome::initiated;
+}
+
 SeenSet seenTracks(const std::vector<InnovationRow>& innovations) {
     SeenSet seen;
     for (const auto& [stamp, sensor, innovation] : innovations)
-        if (innovation.track.valid() &&
-            (innovation.outcome == Outcome::updated || innovation.outcome == Outcome::initiated))
-            seen.emplace(stamp, innovation.track);
+        if (innovation.track.valid() && isSight(innovation.outcome)) seen.emplace(stamp, innovation.track);
     return seen;
 }
 
@@ -127,7 +130,7 @@ Measured<TargetMetrics> targetMetrics(const RunRecord& run, const Truth& truth,
     result.all = errorsOf(all, options.probability);
     result.seen = while_seen.empty()
                       ? Measured<TargetErrors>::absent(
-                            "no innovation says that a track with a truth was updated or initiated")
+                            "no innovation says that a detection updated or initiated a track with a truth")
                       : Measured<TargetErrors>(errorsOf(while_seen, options.probability));
     for (const auto& [id, of_target] : by_target)
         result.by_target[id] = errorsOf(of_target, options.probability);

@@ -61,6 +61,32 @@ TEST(ConfigTest, DefinesAndVariables) {
     EXPECT_EQ(bad.find('\n'), std::string::npos) << bad;
 }
 
+TEST(ConfigTest, RefusesABackslashThatWouldSwallowTheNextKey) {
+    // MRPT joins each of these with the line below, where x = 1 is then part of a comment.
+    for (const char* comment : {"# why \\", "; why \\", "// why \\", "y = 2 // why \\", "# why \\\r"})
+        EXPECT_THAT(refusal(std::string("[a]\n") + comment + "\nx = 1\n"),
+                    AllOf(HasSubstr("my.ini:2: the comment of"), HasSubstr("ends in '\\'")))
+            << comment;
+    EXPECT_THAT(refusal("[a]\ny = 1, \\\n 2 // why \\\nx = 1\n"), HasSubstr("my.ini:3: the comment of"));
+    EXPECT_THAT(refusal("[a] \\\nx = 1\n"), HasSubstr("my.ini:1: '[a] \\' is no section header"));
+}
+
+TEST(ConfigTest, ABackslashBeforeABlankJoinsNothing) {
+    // As MRPT reads it: the '\' is part of the value, the next line a key of its own.
+    const auto config = Config::fromText("[a]\nx = 1 \\ \ny = 2\n# why \\ \nz = 3\n");
+    EXPECT_EQ(value(config, "a", "x"), "1 \\");
+    EXPECT_EQ(value(config, "a", "y"), "2");
+    EXPECT_EQ(value(config, "a", "z"), "3");
+}
+
+TEST(ConfigTest, RefusesDirectivesMrptDoesNotHave) {
+    for (const char* line : {"@x = 1", "@include other.ini", "@define", "@define x = 1", "@defineX 1",
+                             "@DEFINE X 1", "@define X 1 \\"})
+        EXPECT_EQ(
+            refusal(std::string("[a]\n") + line + "\nx = 1\n"),
+            std::string("my.ini:2: '") + line + "' is no directive, expected @define NAME value on one line");
+}
+
 TEST(ConfigTest, RefusesLinesThatAreNoIni) {
     EXPECT_EQ(refusal("[a]\nx = 1\nwhat\n"), "my.ini:3: 'what' is no setting, expected key = value");
     EXPECT_EQ(refusal("[a]\n= 1\n"), "my.ini:2: '= 1' is no setting, expected key = value");

@@ -23,8 +23,43 @@ std::string lowered(std::string text) {
     return text;
 }
 
-/// Where every section and key of an INI text stands. MRPT's reader forgets lines and keeps the last of doubled
-/// keys, so this scan finds the places and the doubles; the values come from MRPT.
+bool isComment(const std::string& line) {
+    return line[0] == '#' || line[0] == ';' || startsWith(line, "//");
+}
+
+/// `@define NAME value`, the only directive MRPT has; it skips other lines that start with '@' in silence.
+bool isDefine(const std::string& line) {
+    std::istringstream words(line);
+    std::string directive, name, value;
+    return words >> directive >> name >> value && directive == "@define" && value[0] != '=';
+}
+
+/// MRPT joins a line with the next when its very last character is '\\', blanks after it counting.
+bool isJoinedWithNext(std::string raw) {
+    if (!raw.empty() && raw.back() == '\r') raw.pop_back();
+    return !raw.empty() && raw.back() == '\\';
+}
+
+/// A '\\' that continues anything but a value would swallow the next line, and the key on it, in silence.
+void requireHarmless(const std::string& line, bool continues_before, bool continued,
+                     const std::string& where) {
+    const bool directive = !line.empty() && line[0] == '@';
+    if (directive && (continues_before || continued || !isDefine(line)))
+        throw ConfigError(
+            fmt::format("{}: '{}' is no directive, expected @define NAME value on one line", where, line));
+    if (!continued || line.empty()) return;
+    if (isComment(line) || line.find("//") != std::string::npos)
+        throw ConfigError(
+            fmt::format("{}: the comment of '{}' ends in '\\', expected no comment on a line that "
+                        "goes on in the next",
+                        where, line));
+    if (line[0] == '[' && !continues_before)
+        throw ConfigError(
+            fmt::format("{}: '{}' is no section header, expected [name] without a '\\'", where, line));
+}
+
+/// Where every section and key of an INI text stands. MRPT's reader forgets lines and keeps the last of
+/// doubled keys, so this scan finds the places and the doubles; the values come from MRPT.
 struct Places {
     std::map<std::string, int> sections;
     std::map<std::string, std::map<std::string, int>> keys;
@@ -41,20 +76,20 @@ Places scan(const std::string& text, const std::string& name) {
     for (int number = 1; std::getline(lines, raw); ++number) {
         const std::string line = trimmed(raw);
         const bool continues_before = continued;
-        continued = !line.empty() && line.back() == '\\';
-        if (continues_before || line.empty() || line[0] == '#' || line[0] == ';' || line[0] == '@' ||
-            startsWith(line, "//"))
-            continue;
+        continued = isJoinedWithNext(raw);
+        requireHarmless(line, continues_before, continued, fmt::format("{}:{}", name, number));
+        if (continues_before || line.empty() || line[0] == '@' || isComment(line)) continue;
         if (line[0] == '[') {
             const auto close = line.find(']');
             const std::string rest = close == std::string::npos ? "" : trimmed(line.substr(close + 1));
             section = close == std::string::npos ? "" : trimmed(line.substr(1, close - 1));
             if (section.empty() || !(rest.empty() || startsWith(rest, "//") || rest[0] == ';'))
-                throw ConfigError(fmt::format("{}:{}: '{}' is no section header, expected [name]", name, number, line));
+                throw ConfigError(
+                    fmt::format("{}:{}: '{}' is no section header, expected [name]", name, number, line));
             places.sections[section] = number;
             if (const auto [at, is_new] = section_lines.emplace(lowered(section), number); !is_new)
-                throw ConfigError(fmt::format("{}:{}: section [{}] is there twice, first at line {}", name, number,
-                                              section, at->second));
+                throw ConfigError(fmt::format("{}:{}: section [{}] is there twice, first at line {}", name,
+                                              number, section, at->second));
             continue;
         }
         const auto equals = line.find('=');
@@ -62,14 +97,14 @@ Places scan(const std::string& text, const std::string& name) {
             throw ConfigError(
                 fmt::format("{}:{}: '{}' is no setting, expected key = value", name, number, line));
         if (section.empty())
-            throw ConfigError(
-                fmt::format("{}:{}: '{}' stands before any section, expected [name] first", name, number, line));
+            throw ConfigError(fmt::format("{}:{}: '{}' stands before any section, expected [name] first",
+                                          name, number, line));
         const std::string key = trimmed(line.substr(0, equals));
         places.keys[section][key] = number;
         if (const auto [at, is_new] = key_lines.emplace(std::pair(lowered(section), lowered(key)), number);
             !is_new)
-            throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name, number,
-                                          key, section, at->second));
+            throw ConfigError(fmt::format("{}:{}: key '{}' of [{}] is there twice, first at line {}", name,
+                                          number, key, section, at->second));
     }
     return places;
 }
@@ -174,11 +209,11 @@ void load(const ParameterTable& table, const Config& config) {
     for (const auto& [key, entry] : config.section(table.section())) {
         const Parameter* parameter = table.find(key);
         if (!parameter)
-            throw ConfigError(fmt::format("{}: unknown key '{}' in [{}]{}", entry.origin, key, table.section(),
-                                          didYouMean(key, known)));
+            throw ConfigError(fmt::format("{}: unknown key '{}' in [{}]{}", entry.origin, key,
+                                          table.section(), didYouMean(key, known)));
         if (const auto expected = parameter->parse(entry.value))
-            throw ConfigError(fmt::format("{}: {} = '{}' in [{}], expected {}", entry.origin, key, entry.value,
-                                          table.section(), *expected));
+            throw ConfigError(fmt::format("{}: {} = '{}' in [{}], expected {}", entry.origin, key,
+                                          entry.value, table.section(), *expected));
     }
 }
 
