@@ -79,6 +79,12 @@ TEST(ReadRun, OnlyTheTrajectoryMustBeThere) {
     EXPECT_TRUE(run.tracks.empty() && run.landmarks.empty() && run.innovations.empty());
 }
 
+TEST(ReadRun, ALineThatACrashCutOffEndsTheTable) {
+    const TemporaryFolder folder("cut");
+    folder.write("trajectory.csv", std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n1,0,0");
+    EXPECT_EQ(readRun(folder.path()).trajectory.size(), 1u);
+}
+
 TEST(ReadRun, BadRowsAreNamed) {
     const TemporaryFolder folder("bad");
     folder.write("trajectory.csv",

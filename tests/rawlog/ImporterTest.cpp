@@ -241,6 +241,8 @@ TEST_F(CsvImport, MistakesAreNamed) {
     writeSmall("model = steered\n");
     file("odometry.csv", "t,v,gamma\n0,0,0\n0,1,0\n");
     EXPECT_THAT(messageOf("csv"), AllOf(HasSubstr("odometry.csv:3"), HasSubstr("later")));
+    file("odometry.csv", "t,v,gamma\n0,1,0\n1,1");  // cut off
+    EXPECT_THAT(messageOf("csv"), AllOf(HasSubstr("odometry.csv:3"), HasSubstr("2 fields")));
     file("odometry.csv", "t,v,gamma\n0,1,\n");
     EXPECT_THAT(messageOf("csv"), AllOf(HasSubstr("odometry.csv:2"), HasSubstr("gamma")));
     file("odometry.csv", "t,v,gamma\n0,1,1.6\n");

@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <csignal>
+#include <cstdlib>
+
 #include "rawlog/TestLogs.h"
 #include "slamot/rawlog/LogCheck.h"
 #include "slamot/rawlog/LogError.h"
@@ -91,6 +94,30 @@ TEST_F(LogCheck, AChildThatDiesMeansACorruptLog) {
     const LogSummary summary = summariseInChild(SLAMOT_CHECK_LOG_HELPER, "die", {});
     EXPECT_EQ(summary.end, LogEnd::corrupt);
     EXPECT_THAT(summary.end_message, HasSubstr("signal 9"));
+}
+
+TEST_F(LogCheck, AChildOutOfTimeIsSaidToBe) {
+    const LogSummary summary = summariseInChild(SLAMOT_CHECK_LOG_HELPER, "too_long", {});
+    EXPECT_EQ(summary.end, LogEnd::corrupt);
+    EXPECT_THAT(summary.end_message, HasSubstr("was not done within 600 s of CPU time"));
+}
+
+TEST_F(LogCheck, AnInterruptedChildSaysNothingOfTheLog) {
+    EXPECT_THROW(summariseInChild(SLAMOT_CHECK_LOG_HELPER, "interrupted", {}), std::runtime_error);
+}
+
+TEST_F(LogCheck, TheChildHasATimeLimitOneBlasThreadAndTheDefaultInterrupt) {
+    const auto before = std::signal(SIGINT, SIG_IGN);
+    setenv("OPENBLAS_NUM_THREADS", "64", 1);
+    std::string answer;
+    try {
+        summariseInChild(SLAMOT_CHECK_LOG_HELPER, "tell", {});
+    } catch (const LogError& error) {
+        answer = error.what();
+    }
+    unsetenv("OPENBLAS_NUM_THREADS");
+    std::signal(SIGINT, before);
+    EXPECT_EQ(answer, "cpu 600, threads 1, SIGINT default");
 }
 
 TEST_F(LogCheck, AProgramThatIsNotThereIsNamed) {

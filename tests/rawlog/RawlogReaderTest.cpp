@@ -88,6 +88,37 @@ TEST_F(Reader, WhatIsLaterThanTheWindowIsDropped) {
     EXPECT_EQ(readLog(path("a.rawlog"), none).drops.rows().at({"odometry", "late"}), 2);
 }
 
+std::vector<double> secondsOf(const ReadLog& log) {
+    std::vector<double> seconds;
+    for (const LogEntry& entry : log.entries)
+        seconds.push_back(static_cast<double>(entry.stamp.ticks) * 1e-7);
+    return seconds;
+}
+
+TEST_F(Reader, AWildStampIsDroppedAndNotTheRest) {
+    // 5000 s is more than an hour ahead of 2 s, and 3 s would be late behind it.
+    writeLog(path("a.rawlog"),
+             {odometryAt(1, 0), odometryAt(2, 0), odometryAt(5000, 0), odometryAt(3, 0), odometryAt(4, 0)});
+    const ReadLog log = readLog(path("a.rawlog"));
+    EXPECT_EQ(secondsOf(log), (std::vector<double>{1, 2, 3, 4}));
+    EXPECT_EQ(log.drops.rows().at({"odometry", "stamp-jump"}), 1);
+    EXPECT_EQ(log.drops.total(), 1);
+
+    writeLog(path("b.rawlog"), {odometryAt(5000, 0), odometryAt(3, 0), odometryAt(4, 0)});
+    const ReadLog first = readLog(path("b.rawlog"));
+    EXPECT_EQ(secondsOf(first), (std::vector<double>{3, 4}));
+    EXPECT_EQ(first.drops.rows().at({"odometry", "stamp-jump"}), 1);
+}
+
+TEST_F(Reader, ALongPauseIsKept) {
+    // Pauses of more than an hour, one before entries out of order within the window, one before the last.
+    writeLog(path("a.rawlog"),
+             {odometryAt(1, 0), odometryAt(5000.5, 0), odometryAt(5000, 0), odometryAt(10000, 0)});
+    const ReadLog log = readLog(path("a.rawlog"));
+    EXPECT_EQ(secondsOf(log), (std::vector<double>{1, 5000, 5000.5, 10000}));
+    EXPECT_EQ(log.drops.total(), 0);
+}
+
 TEST_F(Reader, InvalidStampsAreDropped) {
     auto invalid = odometryAt(1, 0);
     invalid->timestamp = INVALID_TIMESTAMP;

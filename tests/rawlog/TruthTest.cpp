@@ -114,6 +114,8 @@ TEST_F(TruthFolder, BadFilesAreNamed) {
     EXPECT_THAT(messageOf(folder_.string()), HasSubstr("holds no truth"));
     writeBytes(path("robot.csv"), "t,x,y,theta\n1,0,0,0\n1,0,0,0\n");
     EXPECT_THAT(messageOf(folder_.string()), AllOf(HasSubstr("robot.csv:3"), HasSubstr("later")));
+    writeBytes(path("robot.csv"), "t,x,y,theta\n1,0,0,0\n2,0,0");  // cut off
+    EXPECT_THAT(messageOf(folder_.string()), AllOf(HasSubstr("robot.csv:3"), HasSubstr("3 fields")));
     writeBytes(path("robot.csv"), "t,x,y,theta\n1,0,nan,0\n");
     EXPECT_THAT(messageOf(folder_.string()), AllOf(HasSubstr("robot.csv:2"), HasSubstr("finite")));
     writeBytes(path("robot.csv"), "t,x,y,theta\n");

@@ -60,7 +60,7 @@ class SymmetricColumns {
 };
 
 std::vector<RobotRow> readTrajectory(const std::string& file) {
-    CsvReader table(file);
+    CsvReader table(file, LastLine::may_be_cut);
     const int t = table.column("t"), x = table.column("x"), y = table.column("y"),
               theta = table.column("theta");
     const SymmetricColumns<3> covariance(
@@ -78,7 +78,7 @@ std::vector<RobotRow> readTrajectory(const std::string& file) {
 }
 
 void readTracks(const std::string& file, RunRecord& run) {
-    CsvReader table(file);
+    CsvReader table(file, LastLine::may_be_cut);
     const int t = table.column("t"), id = table.column("track"), existence = table.column("existence");
     std::array<int, 6> state{};
     const std::array<const char*, 6> names{"x", "y", "vx", "vy", "ax", "ay"};
@@ -106,7 +106,7 @@ void readTracks(const std::string& file, RunRecord& run) {
 }
 
 std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
-    CsvReader table(file);
+    CsvReader table(file, LastLine::may_be_cut);
     const int id = table.column("id"), x = table.column("x"), y = table.column("y"),
               seen = table.column("seen");
     const int first = table.column("first_t"), last = table.column("last_t");
@@ -129,7 +129,7 @@ std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
 }
 
 std::vector<InnovationRow> readInnovations(const std::string& file) {
-    CsvReader table(file);
+    CsvReader table(file, LastLine::may_be_cut);
     const int t = table.column("t"), sensor = table.column("sensor"), kind = table.column("kind");
     const int landmark = table.column("landmark"), track = table.column("track"),
               outcome = table.column("outcome");

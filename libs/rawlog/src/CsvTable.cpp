@@ -38,7 +38,8 @@ void appendSeparator(std::string& line) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::string& file) : file_(file), in_(file) {
+CsvReader::CsvReader(const std::string& file, LastLine last_line)
+    : file_(file), last_line_(last_line), in_(file) {
     if (!std::filesystem::is_regular_file(file) || !in_)
         throw LogError(fmt::format("{}: cannot be opened, expected a CSV table", file));
     std::string line;
@@ -72,7 +73,7 @@ bool CsvReader::next() {
     const bool unfinished = in_.eof();
     fields_ = splitAtCommas(line);
     if (fields_.size() == header_.size()) return true;
-    if (unfinished) return false;
+    if (unfinished && last_line_ == LastLine::may_be_cut) return false;
     throw LogError(fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_,
                                fields_.size(), header_.size()));
 }

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -36,6 +37,23 @@ void lower(int resource, rlim_t limit) {
     setrlimit(static_cast<__rlimit_resource_t>(resource), &limits);
 }
 
+/// This process's environment, with OpenBLAS kept to one thread: the stacks of a pool with a thread per core
+/// would eat the limited address space.
+std::vector<std::string> childEnvironment() {
+    const std::string name = "OPENBLAS_NUM_THREADS=";
+    std::vector<std::string> variables = {name + "1"};
+    for (char** variable = environ; *variable; ++variable)
+        if (std::strncmp(*variable, name.c_str(), name.size()) != 0) variables.emplace_back(*variable);
+    return variables;
+}
+
+std::vector<char*> nullTerminated(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (auto& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 /// A finished child: how it ended and what it printed.
 struct Child {
     int status = 0;
@@ -51,12 +69,22 @@ Child runChild(std::vector<std::string> arguments) {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     // MRPT prints what it makes of broken objects; the answer comes through the pipe.
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::vector<char*> argv;
-    for (auto& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
+    // The user's Ctrl-C ends the child even where the parent ignores or blocks it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t interrupt, none;
+    sigemptyset(&none);
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    posix_spawnattr_setsigdefault(&attributes, &interrupt);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    std::vector<std::string> environment = childEnvironment();
+    const std::vector<char*> argv = nullTerminated(arguments), envp = nullTerminated(environment);
 
     pid_t pid = 0;
-    const int error = posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), envp.data());
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     Child child;
@@ -81,6 +109,10 @@ std::string lastLine(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
+bool diedOf(const Child& child, int signal) {
+    return WIFSIGNALED(child.status) && WTERMSIG(child.status) == signal;
+}
+
 std::string causeOfDeath(const Child& child) {
     if (WIFSIGNALED(child.status))
         return fmt::format("died of signal {} ({})", WTERMSIG(child.status),
@@ -92,6 +124,7 @@ std::string causeOfDeath(const Child& child) {
 
 int checkLogMain(const std::string& file, const LogParameters& parameters, std::uint64_t memory_limit) {
     lower(RLIMIT_CORE, 0);
+    lower(RLIMIT_CPU, log_check_cpu_limit);
     if (memory_can_be_limited) lower(RLIMIT_AS, memory_limit);
     try {
         std::cout << toJson(summarise(file, parameters)) << std::endl;
@@ -115,10 +148,18 @@ LogSummary summariseInChild(const std::string& program, const std::string& file,
         const auto json = nlohmann::json::parse(answer, nullptr, false);
         if (json.is_object() && json.contains("error")) throw LogError(json.value("error", ""));
     }
+    if (diedOf(child, SIGINT))
+        throw std::runtime_error(fmt::format("{}: looking through the log was interrupted", file));
     LogSummary summary;
     summary.end = LogEnd::corrupt;
     summary.end_message =
-        fmt::format("{}: the log is so damaged that the process reading it {}", file, causeOfDeath(child));
+        diedOf(child, SIGXCPU)
+            ? fmt::format(
+                  "{}: the process reading the log was not done within {} s of CPU time, so the log "
+                  "counts as damaged",
+                  file, log_check_cpu_limit)
+            : fmt::format("{}: the log is so damaged that the process reading it {}", file,
+                          causeOfDeath(child));
     return summary;
 }
 

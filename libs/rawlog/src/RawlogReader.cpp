@@ -86,12 +86,14 @@ struct RawlogReader::Impl {
 
     void enqueue(const LogObject& object) {
         auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object.object);
-        const std::string label = observation->sensorLabel;
         const auto stamp = usableStamp(observation->timestamp);
-        if (!stamp)
-            drops.add(label, "no-stamp");
-        else if (!queue.push({*stamp, std::move(observation), std::nullopt, object.position}))
-            drops.add(label, "late");
+        if (!stamp) {
+            drops.add(observation->sensorLabel, "no-stamp");
+            return;
+        }
+        for (const auto& [sensor, reason] :
+             queue.push({*stamp, std::move(observation), std::nullopt, object.position}))
+            drops.add(sensor, reason);
     }
 
     std::optional<LogEntry> nextOfFrames() {

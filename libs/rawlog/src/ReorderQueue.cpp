@@ -23,16 +23,44 @@ int orderRank(const mrpt::obs::CObservation& observation) {
     return 3;
 }
 
-bool ReorderQueue::push(LogEntry entry) {
+std::vector<ReorderQueue::Dropped> ReorderQueue::push(LogEntry entry) {
+    std::vector<Dropped> dropped;
+    const std::int64_t t = entry.stamp.ticks;
+    if (ahead_) {
+        // After a jump what comes next must not be late behind it. The log's first entry has nothing before
+        // it that speaks against it, so only a jump back does.
+        const bool goes_back = ahead_->stamp.ticks - t > (newest_ ? window_ : jump);
+        if (goes_back)
+            dropped.push_back({ahead_->observation->sensorLabel, "stamp-jump"});
+        else
+            add(std::move(*ahead_), dropped);
+        ahead_.reset();
+    }
+    if (!newest_ || t - *newest_ > jump)
+        ahead_ = std::move(entry);
+    else
+        add(std::move(entry), dropped);
+    return dropped;
+}
+
+void ReorderQueue::add(LogEntry entry, std::vector<Dropped>& dropped) {
     const std::int64_t t = entry.stamp.ticks;
     newest_ = std::max(newest_.value_or(t), t);
-    if (*newest_ - t > window_) return false;
+    if (*newest_ - t > window_) {
+        dropped.push_back({entry.observation->sensorLabel, "late"});
+        return;
+    }
     Key key{t, orderRank(*entry.observation), entry.observation->sensorLabel, entry.position};
     waiting_.emplace(std::move(key), std::move(entry));
-    return true;
 }
 
 std::optional<LogEntry> ReorderQueue::pop(bool flush) {
+    if (flush && ahead_) {
+        // Nothing came after it that could speak against it. It is the newest, so it cannot be late.
+        std::vector<Dropped> none;
+        add(std::move(*ahead_), none);
+        ahead_.reset();
+    }
     if (waiting_.empty()) return std::nullopt;
     const auto first = waiting_.begin();
     // What still may come is no older than newest - window, so only what is older than that is settled.

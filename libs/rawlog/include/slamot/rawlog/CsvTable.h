@@ -9,11 +9,16 @@
 
 namespace slamot {
 
+/// What a last line without a newline and with too few fields means. `may_be_cut`: a crashed writer left it,
+/// and it ends the table. `whole`: it is an error like any other short row, so that no import loses a row
+/// uncounted.
+enum class LastLine { whole, may_be_cut };
+
 /// Reads row by row; columns are found by name. Errors name file, line and column.
 class CsvReader {
   public:
     /// Throws LogError when the file cannot be opened or has no header.
-    explicit CsvReader(const std::string& file);
+    explicit CsvReader(const std::string& file, LastLine last_line = LastLine::whole);
 
     bool has(const std::string& column) const;
     /// Index for the accessors below; throws LogError when absent.
@@ -21,7 +26,7 @@ class CsvReader {
     const std::vector<std::string>& header() const { return header_; }
 
     /// Goes to the next row; false at the end. A row with another number of fields than the header is an
-    /// error, except a last line without a newline, which a crashed writer may have left: it ends the table.
+    /// error that names file and line, but see LastLine.
     bool next();
 
     bool empty(int column) const;
@@ -35,6 +40,7 @@ class CsvReader {
 
   private:
     std::string file_;
+    LastLine last_line_;
     std::ifstream in_;
     std::vector<std::string> header_, fields_;
     std::int64_t line_ = 0;

@@ -37,14 +37,18 @@ LogSummary summarise(const std::string& file, const LogParameters& parameters);
 std::string toJson(const LogSummary& summary);
 LogSummary logSummaryFromJson(const std::string& json);
 
+/// CPU time the child may take; a log of many gigabytes takes minutes [s].
+constexpr std::uint64_t log_check_cpu_limit = 600;
+
 /// What the program started by summariseInChild does: lowers its own address space to `memory_limit` bytes
-/// (not in sanitizer builds, which reserve far more), prints toJson(summarise(file)) or the error, and
-/// returns its exit code.
+/// (not in sanitizer builds, which reserve far more) and its CPU time to log_check_cpu_limit, prints
+/// toJson(summarise(file)) or the error, and returns its exit code.
 int checkLogMain(const std::string& file, const LogParameters& parameters, std::uint64_t memory_limit);
 
 /// Runs `program check-log FILE --memory-limit BYTES --reorder-window S --step S`, which must call
 /// checkLogMain, and takes its answer. A child that dies is a corrupt log: LogSummary::end says so. Call
-/// before any thread is started. Throws LogError when the child says the file cannot be used at all.
+/// before any thread is started. Throws LogError when the child says the file cannot be used at all,
+/// std::runtime_error when it cannot be started or is interrupted (SIGINT, whatever the parent makes of it).
 LogSummary summariseInChild(const std::string& program, const std::string& file,
                             const LogParameters& parameters, std::uint64_t memory_limit = 2ull << 30);
 

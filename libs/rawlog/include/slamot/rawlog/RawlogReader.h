@@ -53,7 +53,8 @@ struct LogEntry {
 };
 
 /// Entries come out ordered by (stamp, odometry < lidar < detections, label, position in file), so that
-/// permuted arrival gives the same run; what comes later than the reorder window allows is dropped as 'late'.
+/// permuted arrival gives the same run; what comes later than the reorder window allows is dropped as 'late',
+/// a single stamp more than an hour ahead of its neighbours as 'stamp-jump'.
 /// Action-frame logs are ordered by position; their time is the step number times `step` where the stamps
 /// cannot be used.
 class RawlogReader {
