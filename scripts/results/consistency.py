@@ -3,7 +3,9 @@
 
 Usage: scripts/results/consistency.py [runs per case, default 300]
 """
+import concurrent.futures
 import math
+import os
 import statistics
 import sys
 import tempfile
@@ -14,33 +16,43 @@ FILES_OFF = [a for key in ("innovations", "landmarks_history", "steps", "correla
              for a in ("--set", f"output.{key}=false")]
 
 
-def band(mean, values):
-    """Mean with the half width of its 95 % interval."""
+CORES = ("classic", "invariant")
+
+
+def band(values):
+    """Mean with the half width of its 95 % interval, and the median: runs are heavy-tailed."""
     half = 1.96 * statistics.stdev(values) / math.sqrt(len(values))
-    return f"{mean:.3g} ± {half:.2g}"
+    return f"{statistics.mean(values):.3g} ± {half:.2g} ({statistics.median(values):.3g})"
+
+
+def one_seed(scenario, seed):
+    """Metrics of both cores on one log."""
+    with tempfile.TemporaryDirectory() as folder:
+        slamot("simulate", ROOT / f"config/scenarios/{scenario}.ini", "-o", f"{folder}/log.rawlog", "--seed", seed)
+        metrics = {}
+        for core in CORES:
+            slamot("run", ROOT / "config/runs/paper1_ekf.ini", f"{folder}/log.rawlog", "-o", f"{folder}/out", "--set",
+                   f"ekf_slamot.consistency={core}", *FILES_OFF)
+            metrics[core] = summary(f"{folder}/out")["metrics"]
+        return metrics
+
+
+def figures(metrics):
+    """Of one run, in the order of the table's columns."""
+    target = metrics["targets"]["all"]
+    return (metrics["robot_nees"]["average"], target["nees"]["average"], metrics["robot"]["position"]["rmse"],
+            target["position"]["rmse"], metrics["landmarks"]["position"]["rmse"])
 
 
 def main():
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 300
-    config = ROOT / "config/runs/paper1_ekf.ini"
     rows = []
-    with tempfile.TemporaryDirectory() as folder:
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for scenario in ("paper1", "quiet"):
-            results = {"classic": [], "invariant": []}
-            for seed in range(1, runs + 1):
-                log = f"{folder}/log.rawlog"
-                slamot("simulate", ROOT / f"config/scenarios/{scenario}.ini", "-o", log, "--seed", seed)
-                for core in results:
-                    slamot("run", config, log, "-o", f"{folder}/out", "--set", f"ekf_slamot.consistency={core}", *FILES_OFF)
-                    results[core].append(summary(f"{folder}/out")["metrics"])
-            for core, metrics in results.items():
-                nees = [m["robot_nees"]["average"] for m in metrics]
-                target = [m["targets"]["all"]["nees"]["average"] for m in metrics]
-                rmse = [m["robot"]["position"]["rmse"] for m in metrics]
-                target_rmse = [m["targets"]["all"]["position"]["rmse"] for m in metrics]
-                landmark = [m["landmarks"]["position"]["rmse"] for m in metrics]
-                rows.append([scenario, core, runs] + [band(statistics.mean(v), v) for v in
-                            (nees, target, rmse, target_rmse, landmark)])
+            results = list(pool.map(lambda seed: one_seed(scenario, seed), range(1, runs + 1)))
+            for core in CORES:
+                columns = list(zip(*(figures(metrics[core]) for metrics in results)))
+                rows.append([scenario, core, runs] + [band(column) for column in columns])
     header = ["scenario", "core", "runs", "ANEES robot (3)", "ANEES target (2)", "robot RMSE [m]", "target RMSE [m]",
               "landmark RMSE [m]"]
     fill("consistency.md", "table", table(header, rows) + "\n\n" + stamp())
