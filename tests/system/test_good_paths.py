@@ -39,6 +39,12 @@ class GoodPaths(SlamotTest):
         self.slamot("run", SOURCE / "config/runs/demo.ini", shipped, "-o", "out")
         self.assertLess(self.summary()["metrics"]["robot"]["position"]["rmse"], 1.0)
 
+    def test_somebody_elses_files_are_not_overwritten(self):
+        self.demo()
+        truth = self.path("demo.truth/landmarks.csv").read_bytes()
+        self.slamot("run", EKF, "demo.rawlog", "-o", "demo.truth", code=2, says=["demo.truth", "landmarks.csv", "new folder"])
+        self.assertEqual(self.path("demo.truth/landmarks.csv").read_bytes(), truth)
+
     def test_every_shipped_scenario_makes_a_log(self):
         for scenario in sorted((SOURCE / "config/scenarios").glob("*.ini")):
             with self.subTest(scenario=scenario.name):

@@ -27,7 +27,7 @@ void printSensors(const LogSummary& summary) {
 
 /// What estimators need, against what the log has.
 void printUses(const LogSummary& summary) {
-    bool odometry = summary.format == LogFormat::action_frames, velocities = false, detections = false, lidar = false;
+    bool odometry = false, velocities = false, detections = false, lidar = false;
     bool identities = false;
     for (const SensorSummary& s : summary.sensors) {
         odometry |= s.class_name.find("Odometry") != std::string::npos ||

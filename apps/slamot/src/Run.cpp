@@ -55,7 +55,11 @@ void printSummary(const run::RunResult& result, const Options& options, const Ve
         fmt::print("  {:.2f} s, of which predict {:.2f}, detect {:.2f}, update {:.2f}; peak memory {:.0f} MB\n",
                    time["wall_s"].get<double>(), time["predict_s"].get<double>(), time["detect_s"].get<double>(),
                    time["update_s"].get<double>(), result.summary["peak_memory_mb"].get<double>());
-    if (!result.metrics_table.empty()) fmt::print("{}", result.metrics_table);
+    if (!result.metrics_table.empty())
+        fmt::print("{}", result.metrics_table);
+    else if (result.summary["truth"].is_null())
+        fmt::print("  no truth ({}), so no errors are computed\n",
+                   options.truth == "none" ? "--truth none" : truthFolderOf(options.log) + " is not there");
     fmt::print("outputs in {}\n", options.out);
 }
 
@@ -108,7 +112,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
 void addRun(CLI::App& app, Action& chosen) {
     auto* command = app.add_subcommand("run",
                                        "The main job: a log in; robot, map and movers out.\nExample: slamot run "
-                                       "config/ekf_slamot.ini demo.rawlog -o out/ --set ekf_slamot.consistency=classic");
+                                       "config/runs/demo.ini demo.rawlog -o out/ --set ekf_slamot.consistency=classic");
     auto options = std::make_shared<Options>();
     command->add_option("config", options->config, "Config INI file; `slamot config PLUGIN` prints one")->required();
     command->add_option("log", options->log, "Rawlog")->required();

@@ -46,7 +46,7 @@ int runMain(int argc, char** argv) {
         "Planar, from odometry and range-bearing observations.\n\n"
         "Example:\n"
         "  slamot simulate config/scenarios/demo.ini -o demo.rawlog\n"
-        "  slamot run config/ekf_slamot.ini demo.rawlog -o out/"};
+        "  slamot run config/runs/demo.ini demo.rawlog -o out/"};
     app.set_version_flag("--version", std::string("slamot ") + version);
     app.require_subcommand(1);
     Verbosity verbosity;

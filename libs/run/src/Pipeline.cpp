@@ -242,7 +242,8 @@ void Pipeline::start(Stamp stamp) {
 
 void Pipeline::advance(const OdometryIncrement& odometry) {
     if (const std::string missing = estimator_.missingInOdometry(odometry); !missing.empty())
-        throw ConfigError(fmt::format("the log's odometry has no {}, which [motion] model needs; choose another model",
+        throw ConfigError(fmt::format("the log's odometry has no {}, which [motion] model needs, expected model = arc or "
+                                      "increment for this log",
                                       missing));
     if (odometry.seconds() > config_.max_odometry_gap) ++counts_.odometry_gaps;
     OdometryIncrement rest = odometry;

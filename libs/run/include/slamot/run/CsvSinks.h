@@ -1,5 +1,5 @@
 #pragma once
-// The CSV files of an output folder, one sink each; doc/file_formats.md has the columns.
+// The CSV files of an output folder, one sink each; doc/output_files.md has the columns.
 #include <optional>
 
 #include "slamot/run/PartFile.h"
