@@ -34,8 +34,8 @@ void requireOwnFolder(const std::string& folder) {
     const bool earlier_run = fs::exists(folder + "/summary.json") || fs::exists(folder + "/trajectory.csv.part");
     for (const char* name : output_names)
         if (!earlier_run && fs::exists(folder + "/" + name))
-            throw LogError(fmt::format("{}: holds a {} that no run has left there, expected a new folder for the outputs",
-                                       folder, name));
+            throw LogError(fmt::format("{}/{}: no run has left this there, expected a new folder for the outputs", folder,
+                                       name));
 }
 
 /// Makes the folder and removes what an earlier run left there, so that no old file passes for a new one. The log
