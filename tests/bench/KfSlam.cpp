@@ -6,6 +6,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
 
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +17,16 @@ namespace slamot::bench {
 namespace {
 
 using Frame = std::pair<mrpt::obs::CActionCollection::Ptr, mrpt::obs::CSensoryFrame::Ptr>;
+
+/// What a log shows before its first action: taken where the run starts. kf-slam's own reader skips it; slamot uses
+/// it, so it is given to both, as a frame after an action without movement.
+std::optional<Frame> frameAtTheStart(const std::string& log) {
+    mrpt::io::CFileGZInputStream file(log);
+    auto archive = mrpt::serialization::archiveFrom(file);
+    const auto first = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(archive.ReadObject());
+    if (!first) return std::nullopt;
+    return Frame{mrpt::obs::CActionCollection::Create(), first};
+}
 
 /// Pairs of action and the sensory frame after it, by the function kf-slam itself reads with.
 std::vector<Frame> readFrames(const std::string& log) {
@@ -38,6 +49,8 @@ Trial runKfSlam(const std::string& log, const SensorNoise& noise) {
     filter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     filter.options.std_sensor_range = static_cast<float>(noise.range_std);
     filter.options.std_sensor_yaw = static_cast<float>(noise.bearing_std);
+
+    if (auto start = frameAtTheStart(log)) filter.processActionObservation(start->first, start->second);
 
     Trial trial;
     for (Frame& frame : frames) {

@@ -1,11 +1,10 @@
 #pragma once
 // Short ways to write runs and truths in tests.
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "slamot/eval/RunRecord.h"
 #include "slamot/rawlog/Truth.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::eval {
 
@@ -58,27 +57,6 @@ inline InnovationRow innovation(double t, const std::string& sensor, ObjectKind 
     return r;
 }
 
-/// A folder of its own for one test, removed at the end.
-class TemporaryFolder {
-  public:
-    explicit TemporaryFolder(const std::string& name)
-        : path_(std::filesystem::temp_directory_path() /
-                ("slamot_eval_" + name + "_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path() const { return path_.string(); }
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name) << text;
-        return (path_ / name).string();
-    }
-
-  private:
-    std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 }  // namespace slamot::eval

@@ -26,7 +26,7 @@ std::string messageOf(Function&& function) {
 const char* const trajectory_head = "t,x,y,theta,c_xx,c_xy,c_xt,c_yy,c_yt,c_tt\n";
 
 TEST(ReadRun, TakesColumnsByName) {
-    const TemporaryFolder folder("read_run");
+    const TemporaryFolder folder;
     folder.write("trajectory.csv", std::string(trajectory_head) +
                                        "1.5,1,2,0.25,11,12,13,22,23,33\n"
                                        "1.6,3,4,0.5,0,0,0,0,0,0\n");
@@ -71,7 +71,7 @@ TEST(ReadRun, TakesColumnsByName) {
 }
 
 TEST(ReadRun, OnlyTheTrajectoryMustBeThere) {
-    const TemporaryFolder folder("only");
+    const TemporaryFolder folder;
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }), HasSubstr("trajectory.csv"));
     folder.write("trajectory.csv", std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n");
     const RunRecord run = readRun(folder.path());
@@ -80,13 +80,13 @@ TEST(ReadRun, OnlyTheTrajectoryMustBeThere) {
 }
 
 TEST(ReadRun, ALineThatACrashCutOffEndsTheTable) {
-    const TemporaryFolder folder("cut");
+    const TemporaryFolder folder;
     folder.write("trajectory.csv", std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n1,0,0");
     EXPECT_EQ(readRun(folder.path()).trajectory.size(), 1u);
 }
 
 TEST(ReadRun, BadRowsAreNamed) {
-    const TemporaryFolder folder("bad");
+    const TemporaryFolder folder;
     folder.write("trajectory.csv",
                  std::string(trajectory_head) + "0,0,0,0,0,0,0,0,0,0\n1,nan,0,0,0,0,0,0,0,0\n");
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }),
@@ -103,7 +103,7 @@ TEST(ReadRun, BadRowsAreNamed) {
 }
 
 TEST(ReadTum, ReadsYawAndExactStamps) {
-    const TemporaryFolder folder("tum");
+    const TemporaryFolder folder;
     // Yaw 2 atan2(0.6, 0.8); then a half turn. Comments and exponents occur in the wild.
     const RunRecord run = readTum(folder.write(
         "a.tum",
@@ -119,13 +119,13 @@ TEST(ReadTum, ReadsYawAndExactStamps) {
 TEST(ReadTum, ProjectsATiltedFrameToThePlane) {
     // A half turn about (0.6, 0.8, 0) takes the x axis to 2 (0.6) (0.6, 0.8, 0) - (1, 0, 0) = (-0.28, 0.96,
     // 0).
-    const TemporaryFolder folder("tum_tilted");
+    const TemporaryFolder folder;
     const RunRecord run = readTum(folder.write("c.tum", "1 0 0 0 0.6 0.8 0 0\n"));
     EXPECT_NEAR(run.trajectory.at(0).robot.mean.theta, std::atan2(0.96, -0.28), 1e-14);
 }
 
 TEST(ReadTum, RefusesWithASentence) {
-    const TemporaryFolder folder("tum_bad");
+    const TemporaryFolder folder;
     const auto refuse = [&](const std::string& text) {
         const std::string file = folder.write("b.tum", text);
         return messageOf([&] { readTum(file); });

@@ -4,7 +4,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,23 +14,20 @@
 #include "slamot/rawlog/Conventions.h"
 #include "slamot/rawlog/RawlogReader.h"
 #include "slamot/rawlog/RawlogWriter.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::test {
 
 /// A folder of the running test, removed at its end.
 class RawlogTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ =
-            std::filesystem::temp_directory_path() / (std::string("slamot_") + test->test_suite_name() + "_" +
-                                                      test->name() + "_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    std::filesystem::path folder_;
+  private:
+    const TemporaryFolder temporary_;
+
+  protected:
+    const std::filesystem::path folder_ = temporary_.path();
 };
 
 inline void writeBytes(const std::string& file, const std::string& bytes) {

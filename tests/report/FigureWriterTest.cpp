@@ -10,6 +10,7 @@
 
 #include "slamot/report/FigureSpec.h"
 #include "slamot/report/FigureWriter.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::report {
 namespace {
@@ -19,14 +20,6 @@ using ::testing::HasSubstr;
 
 class FigureWriter : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::path(::testing::TempDir()) /
-                  (std::string("slamot_figures_") +
-                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     static Figure simpleFigure() {
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
         Figure figure;
@@ -51,7 +44,11 @@ class FigureWriter : public ::testing::Test {
         return {};
     }
 
-    fs::path folder_;
+  private:
+    const test::TemporaryFolder temporary_;
+
+  protected:
+    const fs::path folder_ = temporary_.path();
 };
 
 #define SKIP_IF_NOT_DRAWN()                                            \

@@ -2,7 +2,6 @@
 // An estimator that notes all it is given, and what the tests of libs/run feed it with.
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <ctime>
@@ -17,6 +16,7 @@
 #include "slamot/rawlog/Conventions.h"
 #include "slamot/rawlog/RawlogWriter.h"
 #include "slamot/run/Pipeline.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot {
 
@@ -167,14 +167,6 @@ class PipelineTest : public testing::Test {
 /// A folder of the running test, removed at its end.
 class FolderTest : public testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        std::string name = std::string("slamot_") + test->test_suite_name() + "_" + test->name();
-        std::replace(name.begin(), name.end(), '/', '_');
-        folder = (std::filesystem::temp_directory_path() / (name + "_" + std::to_string(getpid()))).string();
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
     std::string path(const std::string& name) const { return folder + "/" + name; }
     static std::string textOf(const std::string& file) {
         std::ifstream in(file, std::ios::binary);
@@ -184,7 +176,12 @@ class FolderTest : public testing::Test {
         const std::string text = textOf(file);
         return text.substr(0, text.find('\n'));
     }
-    std::string folder;
+
+  private:
+    const TemporaryFolder temporary_;
+
+  protected:
+    const std::string folder = temporary_.path();
 };
 
 inline void writeLog(const std::string& file, const std::vector<mrpt::obs::CObservation::Ptr>& observations) {

@@ -6,6 +6,7 @@
 #include "slamot/rawlog/RawlogReader.h"
 #include "slamot/rawlog/RawlogWriter.h"
 #include "slamot/sim/Simulation.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
 namespace {
@@ -15,7 +16,8 @@ TEST(SimulatedLog, ComesBackFromARawlogInItsOrderWithItsTruth) {
     Scenario scenario = loadScenario(Config::fromFile(SLAMOT_SOURCE_DIR "/config/scenarios/two_robots.ini"));
     scenario.steps = 40;
     const SimulatedLog log = simulate(scenario, 1).at(1);
-    const std::string file = ::testing::TempDir() + "simulated.rawlog";
+    const test::TemporaryFolder folder;
+    const std::string file = folder.path("simulated.rawlog");
     const auto observations = log.observations();
     RawlogWriter writer(file);
     for (const auto& observation : observations) writer.write(*observation);

@@ -7,6 +7,7 @@
 #include "Scenarios.h"
 #include "slamot/sim/Scenario.h"
 #include "slamot/sim/Simulation.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
 namespace {
@@ -147,10 +148,10 @@ TEST(Scenario, ProgramsAreHeldToTheSameRanges) {
 }
 
 TEST(Scenario, AFileWorldIsFoundBesideItsScenario) {
-    const std::string folder = ::testing::TempDir();
-    std::ofstream(folder + "sim_landmarks.csv") << "id,x,y\n3,1,2\n";
-    std::ofstream(folder + "sim_scenario.ini") << "[world]\nkind = file\nfile = sim_landmarks.csv\n[robot]\n";
-    const Scenario scenario = loadScenario(Config::fromFile(folder + "sim_scenario.ini"));
+    const test::TemporaryFolder folder;
+    folder.write("landmarks.csv", "id,x,y\n3,1,2\n");
+    const std::string file = folder.write("scenario.ini", "[world]\nkind = file\nfile = landmarks.csv\n[robot]\n");
+    const Scenario scenario = loadScenario(Config::fromFile(file));
     EXPECT_EQ(simulate(scenario, 1).at(0).truth.landmarks.at(SourceId{3}), Vector2(1, 2));
 }
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "slamot/rawlog/LogError.h"
 #include "slamot/sim/World.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
 namespace {
@@ -99,17 +99,15 @@ TEST(LoopWorld, SquareHasItsFirstSideOnTheXAxis) {
 
 class FileWorld : public ::testing::Test {
   protected:
-    std::string write(const std::string& text) {
-        const std::string file = ::testing::TempDir() + "sim_world.csv";
-        std::ofstream(file) << text;
-        return file;
-    }
     WorldParameters of(const std::string& text) {
         WorldParameters p;
         p.kind = WorldKind::file;
-        p.file = write(text);
+        p.file = folder_.write("world.csv", text);
         return p;
     }
+
+  private:
+    const test::TemporaryFolder folder_;
 };
 
 TEST_F(FileWorld, TakesIdsAndPositionsFromTheTable) {

@@ -9,6 +9,7 @@
 #include "slamot/rawlog/Importer.h"
 #include "slamot/rawlog/Truth.h"
 #include "slamot/run/RunJob.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot {
 namespace {
@@ -25,11 +26,14 @@ class Mrclam : public testing::Test {
         const char* given = std::getenv("SLAMOT_DATASETS");
         const fs::path data = fs::path(given ? given : SLAMOT_SOURCE_DIR "/../shared/datasets") / "mrclam_6";
         if (!fs::is_directory(data)) return;
-        logs = fs::path(testing::TempDir()) / "mrclam6";
+        temporary = std::make_unique<test::TemporaryFolder>();
+        logs = temporary->path();
         const auto found = std::find_if(importers().begin(), importers().end(),
                                         [](const Importer& importer) { return importer.format == "mrclam"; });
         found->run(data.string(), logs.string(), [](double) { return true; });
     }
+
+    static void TearDownTestSuite() { temporary.reset(); }
 
     void SetUp() override {
         if (logs.empty()) GTEST_SKIP() << "no mrclam_6 in SLAMOT_DATASETS or beside the project";
@@ -58,6 +62,7 @@ class Mrclam : public testing::Test {
         return mean;
     }
 
+    inline static std::unique_ptr<test::TemporaryFolder> temporary;
     inline static fs::path logs;
 };
 

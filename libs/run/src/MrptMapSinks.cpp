@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "GzFile.h"
 #include "slamot/rawlog/Conventions.h"
+#include "slamot/rawlog/GzFile.h"
 #include "slamot/run/MrptSinks.h"
 #include "slamot/run/PartFile.h"
 

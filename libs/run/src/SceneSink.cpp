@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "GzFile.h"
+#include "slamot/rawlog/GzFile.h"
 #include "slamot/run/MrptSinks.h"
 
 namespace slamot::run {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "slamot/core/config/Config.h"
 #include "slamot/core/data/Angle.h"
 #include "support/Expect.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot {
 namespace {
@@ -108,21 +108,14 @@ TEST(ConfigTest, RefusesDoublesWithBothLines) {
 
 class ConfigFileTest : public testing::Test {
   protected:
-    ConfigFileTest() { std::filesystem::create_directories(folder_); }
-    ~ConfigFileTest() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(path(name), std::ios::binary) << text;
-    }
+    std::string path(const std::string& name) const { return folder_.path(name); }
+    void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
     static std::string refusalOf(const std::string& path) {
         return messageOf<ConfigError>([&] { Config::fromFile(path); });
     }
 
   private:
-    std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("slamot_config_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
-         testing::UnitTest::GetInstance()->current_test_info()->name());
+    const test::TemporaryFolder folder_;
 };
 
 TEST_F(ConfigFileTest, ReadsAFileAndItsFolder) {
