@@ -220,15 +220,15 @@ class Drawing {
         for (const eval::ConsistencyStep& step : fullest->consistency.steps)
             band.rows.push_back({step.stamp.seconds(), step.band.low, step.band.high});
         panel.layers.push_back(band);
-        panel.layers.push_back(
-            report::Rule{"expected", fullest->consistency.mean_dimension, false, colour::grey, report::Dash::dotted});
         for (std::size_t i = 0; i < courses.size(); ++i) {
             const report::SeriesStyle style = report::seriesStyle(i);
-            report::Line line{courses[i].label, {}, style.colour, 1.5, style.dash};
+            report::Line line{courses[i].label, {}, style.colour, 1.2, style.dash};
             for (const eval::ConsistencyStep& step : courses[i].consistency.steps)
                 line.points.emplace_back(step.stamp.seconds(), step.mean);
             panel.layers.push_back(line);
         }
+        panel.layers.push_back(
+            report::Rule{"expected", fullest->consistency.mean_dimension, false, colour::text, report::Dash::dotted});
         panel.note = fmt::format("Mean NEES of {}", runs.text());
         return panel;
     }
