@@ -52,6 +52,10 @@ void printPlan(const study::Plan& plan, const std::set<std::string>& done, const
     fmt::print("{} worlds, {} runs\n", worlds, runs);
 }
 
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// Runs what is missing; false when stopped before its end.
 bool runMissing(study::Session& session, const Options& options, const study::Shard& shard,
                 const PluginRegistry& registry, std::chrono::steady_clock::time_point begin, const Verbosity& verbosity) {
@@ -68,13 +72,14 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
         how.progress = [&](const study::StudyProgress& now) {
             last = now;
             progress.show(static_cast<double>(now.done) / static_cast<double>(now.total),
-                          fmt::format("{}/{} runs, {} failed", now.done, now.total, now.failed));
+                          fmt::format("{}/{} runs, {:.1f}/s, {} failed", now.done, now.total,
+                                      static_cast<double>(now.done) / secondsSince(begin), now.failed));
         };
         times = study::runStudy(session.plan(), units, registry, how,
                                 [&](const study::Row& row) { session.store().add(row); });
     }
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (!verbosity.quiet) fmt::print("{}\n", study::timesInWords(last, wall, times.runs_s, options.threads));
+    if (!verbosity.quiet)
+        fmt::print("{}\n", study::timesInWords(last, secondsSince(begin), times.runs_s, options.threads));
     return !interrupted();
 }
 

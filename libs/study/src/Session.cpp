@@ -63,12 +63,13 @@ std::string Session::stateInWords() const {
 }
 
 std::string timesInWords(const StudyProgress& progress, double wall_s, double runs_s, int threads) {
+    if (progress.done == 0) return fmt::format("nothing was run, in {:.1f} s", wall_s);
     const double engine = wall_s * threads - runs_s;
     return fmt::format(
         "{} runs, {} failed, in {:.1f} s; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and waiting {:.1f} % "
         "of the runs",
         progress.done, progress.failed, wall_s, runs_s, runs_s / wall_s, threads, threads == 1 ? "" : "s",
-        runs_s > 0 ? 100 * engine / runs_s : 0.0);
+        100 * engine / runs_s);
 }
 
 }  // namespace slamot::study
