@@ -38,12 +38,12 @@ struct TableSpec {
     std::string caption;
 };
 
-enum class PlotKind { over_parameter, over_time, bands };
+enum class PlotKind { over_parameter, against, over_time, bands };
 
 struct PlotSpec {
     std::string name;
     PlotKind kind = PlotKind::over_parameter;
-    std::vector<std::string> figures, series;
+    std::vector<std::string> figures, series;  ///< of `against`: two figures, along x and y
     Shown shown = Shown::mean;
     std::string parameter;  ///< address of the grid
     Selection selection;
