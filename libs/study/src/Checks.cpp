@@ -195,7 +195,7 @@ Table checkTable(const CheckReport& report) {
                                   : r.state == CheckState::failed ? "FAILED"
                                                                   : "not checked";
         const std::string separator = r.about.empty() || r.reason.empty() ? "" : "; ";
-        const auto number = [](double value) { return Field{numberText(value, 4), {csvNumber(value)}}; };
+        const auto number = [](double value) { return Field{numberText(value, 5), {csvNumber(value)}}; };
         const auto bound = [](double value) { return Field{csvNumber(value), {csvNumber(value)}}; };
         table.lines.push_back({{{r.name, {r.name}},
                                 {r.what, {r.what}},
