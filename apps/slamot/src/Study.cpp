@@ -107,7 +107,7 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
         fmt::print(stderr, "slamot: {}\n", state);
     else if (!verbosity.quiet)
         fmt::print("{}\n", state);
-    // --check, --export and --fill work on session.rows() here.
+    // Here --check, --export and --fill have session.plan() and session.rows().
     if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
     return exit_success;
 }
@@ -135,6 +135,8 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_flag("--any-build", options->session.any_build, "Keep rows that another build of the program made");
     command->callback([&chosen, options] {
         if (options->replicates > 0) options->session.replicates = options->replicates;
+        // Looking at the plan uses no row.
+        if (options->list) options->session.any_build = true;
         chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
     });
 }

@@ -95,15 +95,14 @@ fs::path imported(const Importer& importer, const fs::path& data, const Source& 
 
 FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) {
     const LogSourceFiles& wanted = *source.log;
+    const Importer* importer = wanted.importer.empty() ? nullptr : &importerOf(study, source);
     fs::path folder = study.text.folder();
     if (!wanted.folder.empty()) {
         folder = datasetsFolder(study) / wanted.folder;
         if (!fs::is_directory(folder))
             return {{}, fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name,
                                     wanted.folder, std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
-        if (!wanted.importer.empty()) folder = imported(importerOf(study, source), folder, source, work_folder);
-    } else if (!wanted.importer.empty()) {
-        importerOf(study, source);
+        if (importer) folder = imported(*importer, folder, source, work_folder);
     }
     const std::vector<std::string> files = matching(folder / wanted.files);
     if (files.empty())

@@ -9,6 +9,7 @@
 
 #include "Digest.h"
 #include "LogFiles.h"
+#include "Sources.h"
 #include "slamot/core/Version.h"
 #include "slamot/core/random/RandomStream.h"
 #include "slamot/rawlog/RawlogWriter.h"
@@ -31,12 +32,13 @@ Config at(const GridPoint& point, Config config, const std::string& section, con
 }
 
 /// Assembles the config, which checks it and loads its plugins.
-PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::size_t point,
+PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::size_t point, const Config& base,
                             const PluginRegistry& registry) {
     PlannedConfig planned;
     planned.variant = variant;
     planned.config_point = point;
-    planned.config = at(study.config_grid[point], study.variants[variant].config, "grid", study.text);
+    planned.config =
+        at(study.config_grid[point], withOverrides(base, study.variants[variant].overrides), "grid", study.text);
     planned.config.set("run", "seed", "1");
     const run::AssembledRun assembled = run::assembleRun(planned.config, registry);
     planned.digest = digestOf({assembled.canonical_config});
@@ -44,6 +46,20 @@ PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::si
     if (assembled.detector) plugins.push_back(&registry.find(assembled.config.detector, "detector"));
     planned.build = buildOf(plugins);
     return planned;
+}
+
+/// A variant with a file of its own is one config, otherwise one for each source it runs on.
+std::vector<PlannedConfig> plannedConfigs(const StudyFile& study, std::size_t variant, std::size_t point,
+                                          const PluginRegistry& registry) {
+    const Variant& wanted = study.variants[variant];
+    if (wanted.file) return {plannedConfig(study, variant, point, *wanted.file, registry)};
+    std::vector<PlannedConfig> configs;
+    for (std::size_t source = 0; source < study.sources.size(); ++source) {
+        if (!runsOn(wanted, study.sources[source])) continue;
+        configs.push_back(plannedConfig(study, variant, point, *study.sources[source].config, registry));
+        configs.back().source = source;
+    }
+    return configs;
 }
 
 std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t source) {
@@ -95,7 +111,8 @@ std::vector<PlannedWorldKind> logKinds(const StudyFile& study, std::size_t sourc
 
 WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate) {
     const StudyFile& study = plan.study;
-    const Source& source = study.sources[plan.kinds[kind].source];
+    const std::size_t source_index = plan.kinds[kind].source;
+    const Source& source = study.sources[source_index];
     WorldPlan world;
     world.kind = kind;
     world.replicate = replicate;
@@ -103,8 +120,7 @@ WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate) {
     world.world_seed = derivedSeed(source_seed, static_cast<std::uint64_t>(replicate));
     for (std::size_t c = 0; c < plan.configs.size(); ++c) {
         const PlannedConfig& config = plan.configs[c];
-        const std::vector<std::string>& on = study.variants[config.variant].on;
-        if (!on.empty() && std::find(on.begin(), on.end(), source.name) == on.end()) continue;
+        if (config.source.value_or(source_index) != source_index || !runsOn(study.variants[config.variant], source)) continue;
         RunPlan run;
         run.config = c;
         run.estimator_seed = derivedSeed(world.world_seed, bitsOf(config.digest));
@@ -153,8 +169,9 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
     const StudyFile& file = plan.study;
     for (std::size_t variant = 0; variant < file.variants.size(); ++variant)
         for (std::size_t point = 0; point < file.config_grid.size(); ++point)
-            plan.configs.push_back(inFile(fmt::format("{}: [config.{}]", file.path, file.variants[variant].name),
-                                          [&] { return plannedConfig(file, variant, point, registry); }));
+            for (PlannedConfig& config : inFile(fmt::format("{}: [config.{}]", file.path, file.variants[variant].name),
+                                                [&] { return plannedConfigs(file, variant, point, registry); }))
+                plan.configs.push_back(std::move(config));
 
     std::vector<std::size_t> scenario_kinds;
     for (std::size_t source = 0; source < file.sources.size(); ++source) {

@@ -130,7 +130,7 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         const RunPlan& run = planned.runs[unit.runs[i]];
         const auto begin = std::chrono::steady_clock::now();
         Row& row = rows[i];
-        row.cost.simulate_s = world->simulateSeconds() / static_cast<double>(unit.runs.size());
+        row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
         try {
             const run::RunStatus status = runInto(row, plan, run, *world,
                                                   folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);

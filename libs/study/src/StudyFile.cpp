@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "Sources.h"
 #include "Words.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/study/Plan.h"
@@ -98,16 +99,19 @@ class SourceSection {
     }
     std::string value(const std::string& key) const { return find(key) ? find(key)->value : std::string(); }
 
-    /// The file that key `file` names, with the overrides.
-    Config file(const std::string& what) const {
-        const Setting* setting = find("file");
-        if (!setting) fail(text_.origin(name_), fmt::format("[{}] has no 'file', expected {}", name_, what));
-        const fs::path path = fs::path(text_.folder()) / setting->value;
+    /// The file that a key names, where it is given.
+    std::optional<Config> file(const std::string& key, const std::string& what) const {
+        const Setting* setting = find(key);
+        if (!setting) return std::nullopt;
+        const fs::path path = (fs::path(text_.folder()) / setting->value).lexically_normal();
         std::error_code ignored;
         if (!fs::is_regular_file(path, ignored))
-            fail(setting->origin, fmt::format("file = '{}' in [{}] is not there ({}), expected {} relative to the study",
-                                              setting->value, name_, path.lexically_normal().string(), what));
-        Config config = Config::fromFile(path.lexically_normal().string());
+            fail(setting->origin, fmt::format("{} = '{}' in [{}] is not there ({}), expected {} relative to the study",
+                                              key, setting->value, name_, path.string(), what));
+        return Config::fromFile(path.string());
+    }
+    Config overrides() const {
+        Config config;
         for (const Setting& one : overrides_) {
             const auto [section, key] = addressOf(one);
             config.set(section, key, one.value, one.origin);
@@ -136,37 +140,35 @@ void readStudySection(const Config& text, StudyParameters& p) {
     if (!p.series.empty()) requireKnownSeries(p.series, text.section("study").at("series").origin);
 }
 
-ScenarioSource readScenario(const Config& text, const std::string& name) {
-    const SourceSection section(text, scenario_prefix + name, {"file", "robot"}, true);
-    ScenarioSource source;
-    source.scenario = section.file("a scenario");
+Source readScenario(const Config& text, const std::string& name) {
+    const SourceSection section(text, scenario_prefix + name, {"file", "robot", "config"}, true);
+    std::optional<Config> file = section.file("file", "a scenario");
+    if (!file) fail(text.origin(scenario_prefix + name), fmt::format("[{}{}] has no 'file', expected a scenario", scenario_prefix, name));
+    ScenarioSource source{withOverrides(*std::move(file), section.overrides()), 0};
     if (const Setting* robot = section.find("robot")) {
         ParameterTable table("", "");
         table.integer("robot", source.robot, Interval::between(0, 999999), "");
         if (const auto expected = table.find("robot")->parse(robot->value))
             fail(robot->origin, fmt::format("robot = '{}', expected {}", robot->value, *expected));
     }
-    return source;
+    return {name, std::move(source), std::nullopt, section.file("config", "a run's config")};
 }
 
-LogSourceFiles readLog(const Config& text, const std::string& name) {
-    const SourceSection section(text, log_prefix + name, {"import", "folder", "files"}, false);
+Source readLog(const Config& text, const std::string& name) {
+    const std::string place = log_prefix + name;
+    const SourceSection section(text, place, {"import", "folder", "files", "config"}, false);
     LogSourceFiles source{section.value("import"), section.value("folder"), section.value("files")};
     if (source.files.empty())
-        fail(text.origin(log_prefix + name), fmt::format("[{}{}] has no 'files', expected a pattern like robot_*.rawlog",
-                                                         log_prefix, name));
+        fail(text.origin(place), fmt::format("[{}] has no 'files', expected a pattern like robot_*.rawlog", place));
     if (!source.importer.empty() && source.folder.empty())
-        fail(text.origin(log_prefix + name),
-             fmt::format("[{}{}] has no 'folder', expected the dataset's folder in SLAMOT_DATASETS", log_prefix, name));
-    return source;
+        fail(text.origin(place),
+             fmt::format("[{}] has no 'folder', expected the dataset's folder in SLAMOT_DATASETS", place));
+    return {name, std::nullopt, std::move(source), section.file("config", "a run's config")};
 }
 
 Variant readVariant(const Config& text, const std::string& name, const std::vector<Source>& sources) {
     const SourceSection section(text, config_prefix + name, {"file", "on"}, true);
-    Variant variant;
-    variant.name = name;
-    variant.config = section.file("a run's config");
-    variant.on = split(section.value("on"), ',');
+    Variant variant{name, section.file("file", "a run's config"), section.overrides(), split(section.value("on"), ',')};
     std::vector<std::string> known;
     for (const Source& source : sources) known.push_back(source.name);
     for (const std::string& wanted : variant.on) {
@@ -176,6 +178,11 @@ Variant readVariant(const Config& text, const std::string& name, const std::vect
              fmt::format("on = '{}' in [{}{}]: no source '{}'{}, expected some of {}", section.value("on"), config_prefix,
                          name, wanted, near ? " (did you mean '" + *near + "'?)" : "", fmt::join(known, ", ")));
     }
+    for (const Source& source : sources)
+        if (!variant.file && !source.config && runsOn(variant, source))
+            fail(text.origin(config_prefix + name),
+                 fmt::format("[{}{}] has no 'file' and source {} no 'config', expected one of the two", config_prefix,
+                             name, source.name));
     return variant;
 }
 
@@ -205,13 +212,13 @@ std::vector<GridPoint> readGrid(const Config& text, const std::string& section) 
 std::vector<Source> readSources(const Config& text) {
     std::vector<std::pair<int, Source>> by_line;
     for (const std::string& name : namesAfter(text, scenario_prefix))
-        by_line.push_back({lineOf(text.origin(scenario_prefix + name)), {name, readScenario(text, name), std::nullopt}});
+        by_line.emplace_back(lineOf(text.origin(scenario_prefix + name)), readScenario(text, name));
     for (const std::string& name : namesAfter(text, log_prefix)) {
         if (text.has(scenario_prefix + name))
             fail(text.origin(log_prefix + name),
                  fmt::format("[{}{}] and [{}{}] have one name, expected names of their own", scenario_prefix, name,
                              log_prefix, name));
-        by_line.push_back({lineOf(text.origin(log_prefix + name)), {name, std::nullopt, readLog(text, name)}});
+        by_line.emplace_back(lineOf(text.origin(log_prefix + name)), readLog(text, name));
     }
     std::sort(by_line.begin(), by_line.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Source> sources;
@@ -220,6 +227,16 @@ std::vector<Source> readSources(const Config& text) {
 }
 
 }  // namespace
+
+bool runsOn(const Variant& variant, const Source& source) {
+    return variant.on.empty() || std::find(variant.on.begin(), variant.on.end(), source.name) != variant.on.end();
+}
+
+Config withOverrides(Config config, const Config& overrides) {
+    for (const std::string& section : overrides.sectionNames())
+        for (const auto& [key, entry] : overrides.section(section)) config.set(section, key, entry.value, entry.origin);
+    return config;
+}
 
 StudyFile loadStudy(const std::string& path) {
     StudyFile study;

@@ -11,15 +11,19 @@ namespace slamot::study {
 
 World::World(const Plan& plan, const WorldPlan& world, const std::function<bool()>& stopped)
     : name_(plan.nameOf(world)), log_file_(plan.kinds[world.kind].log_file) {
-    const PlannedWorldKind& kind = plan.kinds[world.kind];
-    if (!kind.scenario) {
-        has_truth_ = std::filesystem::is_directory(truthFolderOf(log_file_));
-        if (has_truth_) truth_ = readTruth(truthFolderOf(log_file_));
-        return;
-    }
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<sim::SimulatedLog> logs =
-        sim::simulate(sim::loadScenario(*kind.scenario), world.world_seed, [&](double) { return !stopped(); });
+    if (plan.kinds[world.kind].scenario) {
+        simulate(plan, world, stopped);
+    } else if (std::filesystem::is_directory(truthFolderOf(log_file_))) {
+        truth_ = readTruth(truthFolderOf(log_file_));
+        has_truth_ = true;
+    }
+    seconds_to_make_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void World::simulate(const Plan& plan, const WorldPlan& world, const std::function<bool()>& stopped) {
+    std::vector<sim::SimulatedLog> logs = sim::simulate(sim::loadScenario(*plan.kinds[world.kind].scenario),
+                                                        world.world_seed, [&](double) { return !stopped(); });
     if (logs.empty()) throw Stopped{};
     const int robot = plan.sourceOf(world).scenario->robot;
     const auto log =
@@ -27,7 +31,6 @@ World::World(const Plan& plan, const WorldPlan& world, const std::function<bool(
     observations_ = std::make_shared<const std::vector<mrpt::obs::CObservation::Ptr>>(log->observations());
     truth_ = std::move(log->truth);
     has_truth_ = true;
-    simulate_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::unique_ptr<LogSource> World::log(const LogParameters& parameters) const {

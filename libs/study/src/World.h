@@ -1,9 +1,8 @@
 #pragma once
 // The world of a unit: observations and truth, in memory.
-#include <map>
+#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "slamot/rawlog/LogSource.h"
@@ -23,17 +22,19 @@ class World {
     const Truth* truth() const { return has_truth_ ? &truth_ : nullptr; }
     /// For messages: without folders, so that rows do not depend on where a log lies.
     const std::string& name() const { return name_; }
-    /// Of the simulation; zero for recorded logs.
-    double simulateSeconds() const { return simulate_s_; }
+    /// Of simulating, or of reading the truth.
+    double secondsToMake() const { return seconds_to_make_; }
 
     struct Stopped {};
 
   private:
+    void simulate(const Plan& plan, const WorldPlan& world, const std::function<bool()>& stopped);
+
     std::string name_, log_file_;
     std::shared_ptr<const std::vector<mrpt::obs::CObservation::Ptr>> observations_;
     Truth truth_;
     bool has_truth_ = false;
-    double simulate_s_ = 0;
+    double seconds_to_make_ = 0;
 };
 
 }  // namespace slamot::study

@@ -41,12 +41,15 @@ struct Source {
     std::string name;
     std::optional<ScenarioSource> scenario;
     std::optional<LogSourceFiles> log;
+    /// Of the world's own: where the variants that name no file begin.
+    std::optional<Config> config;
 };
 
 /// Section `[config.NAME]`: one side of a comparison.
 struct Variant {
     std::string name;
-    Config config;                ///< overrides applied
+    std::optional<Config> file;  ///< absent: the source's own config
+    Config overrides;
     std::vector<std::string> on;  ///< sources it runs on; empty: all
 };
 
@@ -68,6 +71,7 @@ StudyFile loadStudy(const std::string& path);
 /// A config as it runs, but for its seed: a variant at a point of the grid.
 struct PlannedConfig {
     std::size_t variant = 0, config_point = 0;
+    std::optional<std::size_t> source;  ///< whose own config it is made from
     Config config;
     std::string digest;  ///< SHA-256 of its text without the seed
     std::string build;   ///< buildOf the plugins it uses

@@ -20,7 +20,8 @@ struct Series {
 /// What depends on machine and moment, and so is no part of a row's identity.
 struct Cost {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    /// Of running and evaluating; of the world's simulation, shared between the runs made from it.
+    /// Of running and evaluating; of making the world (simulating it, or reading its truth), its part of what the runs
+    /// made from it share.
     double wall_s = none, simulate_s = none;
     double cpu_s = none;  ///< of the thread that ran it
     double step_ms_mean = none, step_ms_p50 = none, step_ms_p99 = none, step_ms_max = none;  ///< estimator's work
