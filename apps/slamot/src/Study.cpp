@@ -38,13 +38,13 @@ std::string inWords(const study::GridPoint& point) {
 void printPlan(const study::Plan& plan, const std::set<std::string>& done, const study::Shard& shard) {
     std::size_t worlds = 0, runs = 0;
     for (const study::WorldPlan& world : plan.worlds) {
-        if (!shard.has(plan, world)) continue;
+        if (!shard.has(world)) continue;
         const study::PlannedWorldKind& kind = plan.kinds[world.kind];
         fmt::print("{} seed {}{}{}\n", plan.nameOf(world), world.world_seed,
-                   kind.scenario ? inWords(plan.study.scenario_grid[kind.scenario_point]) : " ", kind.log_file);
+                   kind.scenario ? inWords(plan.study.scenario_grid[world.scenario_point]) : " ", kind.log_file);
         for (const study::RunPlan& run : world.runs)
             fmt::print("  {} {}{}{}\n", run.key, plan.nameOf(run),
-                       inWords(plan.study.config_grid[plan.configs[run.config].config_point]),
+                       inWords(plan.study.config_grid[run.config_point]),
                        done.count(run.key) ? " (done)" : "");
         ++worlds;
         runs += world.runs.size();

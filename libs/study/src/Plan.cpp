@@ -111,17 +111,20 @@ std::vector<PlannedWorldKind> logKinds(const StudyFile& study, std::size_t sourc
 
 WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate) {
     const StudyFile& study = plan.study;
-    const std::size_t source_index = plan.kinds[kind].source;
-    const Source& source = study.sources[source_index];
     WorldPlan world;
+    world.source = plan.kinds[kind].source;
+    world.scenario_point = plan.kinds[kind].scenario_point;
+    const Source& source = study.sources[world.source];
     world.kind = kind;
     world.replicate = replicate;
     const std::uint64_t source_seed = derivedSeed(study.parameters.seed, bitsOf(digestOf({source.name})));
     world.world_seed = derivedSeed(source_seed, static_cast<std::uint64_t>(replicate));
     for (std::size_t c = 0; c < plan.configs.size(); ++c) {
         const PlannedConfig& config = plan.configs[c];
-        if (config.source.value_or(source_index) != source_index || !runsOn(study.variants[config.variant], source)) continue;
+        if (config.source.value_or(world.source) != world.source || !runsOn(study.variants[config.variant], source)) continue;
         RunPlan run;
+        run.variant = config.variant;
+        run.config_point = config.config_point;
         run.config = c;
         run.estimator_seed = derivedSeed(world.world_seed, bitsOf(config.digest));
         run.key = digestOf({plan.kinds[kind].digest, std::to_string(world.world_seed), study.variants[config.variant].name,
@@ -152,14 +155,14 @@ std::size_t Plan::runCount() const {
 
 std::string Plan::nameOf(const WorldPlan& world) const {
     const std::string point = study.scenario_grid.size() > 1 && kinds[world.kind].scenario
-                                  ? fmt::format("-p{}", kinds[world.kind].scenario_point + 1)
+                                  ? fmt::format("-p{}", world.scenario_point + 1)
                                   : "";
     return fmt::format("{}{}-{}", sourceOf(world).name, point, world.replicate);
 }
 
 std::string Plan::nameOf(const RunPlan& run) const {
     const std::string point =
-        study.config_grid.size() > 1 ? fmt::format("-p{}", configs[run.config].config_point + 1) : "";
+        study.config_grid.size() > 1 ? fmt::format("-p{}", run.config_point + 1) : "";
     return variantOf(run).name + point;
 }
 

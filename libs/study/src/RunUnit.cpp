@@ -43,17 +43,16 @@ void flatten(const nlohmann::json& json, const std::string& name, std::map<std::
 }
 
 Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
-    const PlannedConfig& config = plan.configs[run.config];
     Row row;
     row.key = run.key;
     row.source = plan.sourceOf(world).name;
     row.variant = plan.variantOf(run).name;
-    if (plan.kinds[world.kind].scenario) row.scenario_point = plan.study.scenario_grid[plan.kinds[world.kind].scenario_point];
-    row.config_point = plan.study.config_grid[config.config_point];
+    if (plan.kinds[world.kind].scenario) row.scenario_point = plan.study.scenario_grid[world.scenario_point];
+    row.config_point = plan.study.config_grid[run.config_point];
     row.replicate = world.replicate;
     row.world_seed = world.world_seed;
     row.estimator_seed = run.estimator_seed;
-    row.build = config.build;
+    row.build = plan.configs[run.config].build;
     row.cost.host = hostName();
     return row;
 }

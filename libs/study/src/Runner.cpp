@@ -8,9 +8,8 @@
 
 namespace slamot::study {
 
-bool Shard::has(const Plan& plan, const WorldPlan& world) const {
-    const PlannedWorldKind& kind = plan.kinds[world.kind];
-    const std::size_t turn = static_cast<std::size_t>(world.replicate - 1) + kind.source + kind.scenario_point;
+bool Shard::has(const WorldPlan& world) const {
+    const std::size_t turn = static_cast<std::size_t>(world.replicate - 1) + world.source + world.scenario_point;
     return turn % static_cast<std::size_t>(count) == static_cast<std::size_t>(number - 1);
 }
 
@@ -18,7 +17,7 @@ std::vector<Unit> unitsOf(const Plan& plan, const std::set<std::string>& done, c
     std::vector<Unit> units;
     for (std::size_t w = 0; w < plan.worlds.size(); ++w) {
         const WorldPlan& world = plan.worlds[w];
-        if (!shard.has(plan, world)) continue;
+        if (!shard.has(world)) continue;
         Unit unit;
         unit.world = w;
         for (std::size_t r = 0; r < world.runs.size(); ++r)

@@ -153,12 +153,9 @@ std::vector<Row> Store::rows(const Plan& plan) const {
     };
     std::vector<Wanted> wanted;
     for (const WorldPlan& world : plan.worlds)
-        for (const RunPlan& run : world.runs) {
-            const PlannedWorldKind& kind = plan.kinds[world.kind];
-            const PlannedConfig& config = plan.configs[run.config];
-            wanted.push_back({kind.source, kind.scenario_point, config.variant, config.config_point, world.replicate,
+        for (const RunPlan& run : world.runs)
+            wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point, world.replicate,
                               &run.key});
-        }
     std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
         return std::tie(a.source, a.scenario_point, a.variant, a.config_point, a.replicate) <
                std::tie(b.source, b.scenario_point, b.variant, b.config_point, b.replicate);

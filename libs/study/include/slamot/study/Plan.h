@@ -87,13 +87,15 @@ struct PlannedWorldKind {
 
 /// One run of a study.
 struct RunPlan {
-    std::string key;         ///< SHA-256 of world, config, series and program version, as hex
+    std::string key;  ///< SHA-256 of world, config, series and program version, as hex
+    std::size_t variant = 0, config_point = 0;
     std::size_t config = 0;  ///< index of Plan::configs
     std::uint64_t estimator_seed = 0;  ///< f(world seed, config)
 };
 
 /// The runs that share one world, which is made once: comparisons are paired by it.
 struct WorldPlan {
+    std::size_t source = 0, scenario_point = 0;
     std::size_t kind = 0;  ///< index of Plan::kinds
     int replicate = 1;     ///< counts from 1; of recorded logs, their number within the source
     /// f(study seed, source's name, replicate): the same for every config and every point of the grid.
@@ -111,8 +113,8 @@ struct Plan {
     std::vector<std::string> skipped;
 
     std::size_t runCount() const;
-    const Source& sourceOf(const WorldPlan& world) const { return study.sources[kinds[world.kind].source]; }
-    const Variant& variantOf(const RunPlan& run) const { return study.variants[configs[run.config].variant]; }
+    const Source& sourceOf(const WorldPlan& world) const { return study.sources[world.source]; }
+    const Variant& variantOf(const RunPlan& run) const { return study.variants[run.variant]; }
     /// Words for messages and folders: `paper1-p2-17`, the second point of a grid of several, replicate 17.
     std::string nameOf(const WorldPlan& world) const;
     std::string nameOf(const RunPlan& run) const;

@@ -14,7 +14,7 @@ namespace slamot::study {
 /// Shard k of K, k from 1, takes every K-th replicate of each scenario and point: shares of equal work.
 struct Shard {
     int number = 1, count = 1;
-    bool has(const Plan& plan, const WorldPlan& world) const;
+    bool has(const WorldPlan& world) const;
 };
 
 /// What is handed out as a whole: a world and those of its runs that are wanted.
