@@ -12,7 +12,7 @@
 namespace slamot::study {
 
 /// `[units]`: what a figure is shown in instead of SI and radians.
-struct Unit {
+struct DisplayUnit {
     std::string name;
     double factor = 1;
 };
@@ -74,7 +74,7 @@ struct CheckSpec {
 
 struct Analysis {
     std::map<std::string, std::string> labels;
-    std::map<std::string, Unit> units;
+    std::map<std::string, DisplayUnit> units;
     std::vector<TableSpec> tables;  ///< these three in the order of the file
     std::vector<PlotSpec> plots;
     std::vector<CheckSpec> checks;
