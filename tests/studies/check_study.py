@@ -22,7 +22,7 @@ print(done.stdout, done.stderr, sep="\n")
 if "nothing remains to run" in done.stderr:
     print("skipped: the data are not there")
     sys.exit(77)
-results = {cells[1].strip(): cells[6].strip() for cells in
+results = {cells[1].strip(): cells[6].strip().lower() for cells in
            (line.split("|") for line in done.stdout.splitlines()) if len(cells) > 7}
 failed = {name for name, result in results.items() if result == "failed"}
 checked = failed | {name for name, result in results.items() if result == "passed"}
