@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "study/Builders.h"
 #include "support/Expect.h"
 
@@ -207,6 +209,16 @@ TEST(AnalysisFile, EveryNumberOfTheMetricsIsAFigure) {
           "targets.seen.relative_position.median", "targets.by_target.3.position.rmse", "targets.all.nees.inside",
           "nis.landmarks.landmark.mean_per_degree", "matching.matched", "counts.landmarks", "cost.memory_mb"})
         EXPECT_NO_THROW(analysisOf(std::string("[table.t]\nkind = means\nfigures = ") + name)) << name;
+}
+
+TEST(AnalysisFile, TheProjectsOwnStudiesAreRight) {
+    int studies = 0;
+    for (const auto& file : std::filesystem::directory_iterator(SLAMOT_SOURCE_DIR "/config/studies")) {
+        if (file.path().extension() != ".ini") continue;
+        EXPECT_NO_THROW(validateAnalysis(loadStudy(file.path().string()))) << file.path();
+        ++studies;
+    }
+    EXPECT_GT(studies, 0);
 }
 
 }  // namespace

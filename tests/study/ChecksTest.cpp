@@ -17,17 +17,15 @@ using testing::HasSubstr;
 Plan planOf(const StudyFile& study, int replicates) {
     Plan plan;
     plan.study = study;
-    for (std::size_t config : {0u, 1u}) plan.configs.emplace_back().variant = config;
-    for (std::size_t source : {0u, 1u}) plan.kinds.emplace_back().source = source;
     for (int replicate = 1; replicate <= replicates; ++replicate)
-        for (std::size_t kind : {0u, 1u}) {
+        for (std::size_t source : {0u, 1u}) {
             WorldPlan& world = plan.worlds.emplace_back();
-            world.kind = kind;
+            world.source = source;
             world.replicate = replicate;
-            for (std::size_t config : {0u, 1u}) {
+            for (std::size_t variant : {0u, 1u}) {
                 RunPlan& run = world.runs.emplace_back();
-                run.config = config;
-                run.key = rowOf(study.sources[kind].name, study.variants[config].name, replicate, 0).key;
+                run.variant = variant;
+                run.key = rowOf(study.sources[source].name, study.variants[variant].name, replicate, 0).key;
             }
         }
     return plan;

@@ -34,12 +34,11 @@ PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*
     result.cell = {check.source, variant, check.scenario_point, check.config_point, {}};
     const StudyFile& study = plan.study;
     for (const WorldPlan& world : plan.worlds) {
-        const PlannedWorldKind& kind = plan.kinds[world.kind];
-        if (plan.sourceOf(world).name != check.source || study.scenario_grid[kind.scenario_point] != check.scenario_point)
+        if (plan.sourceOf(world).name != check.source ||
+            study.scenario_grid[world.scenario_point] != check.scenario_point)
             continue;
         for (const RunPlan& run : world.runs) {
-            const std::size_t point = plan.configs[run.config].config_point;
-            if (plan.variantOf(run).name != variant || study.config_grid[point] != check.config_point) continue;
+            if (plan.variantOf(run).name != variant || study.config_grid[run.config_point] != check.config_point) continue;
             ++result.planned;
             if (const auto found = by_key.find(run.key); found != by_key.end()) result.cell.rows.push_back(found->second);
         }
