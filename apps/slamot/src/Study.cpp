@@ -46,7 +46,8 @@ void printPlan(const study::Plan& plan, const std::set<std::string>& done, const
         if (!shard.has(world)) continue;
         const study::PlannedWorldKind& kind = plan.kinds[world.kind];
         fmt::print("{} seed {}{}{}\n", plan.nameOf(world), world.world_seed,
-                   kind.scenario ? inWords(plan.study.scenario_grid[world.scenario_point]) : " ", kind.log_file);
+                   kind.scenario ? inWords(plan.study.scenario_grid[world.scenario_point]) : " ",
+                   kind.log_file);
         for (const study::RunPlan& run : world.runs)
             fmt::print("  {} {}{}{}\n", run.key, plan.nameOf(run),
                        inWords(plan.study.config_grid[run.config_point]),
@@ -63,7 +64,8 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 
 /// Runs what is missing; false when stopped before its end.
 bool runMissing(study::Session& session, const Options& options, const study::Shard& shard,
-                const PluginRegistry& registry, std::chrono::steady_clock::time_point begin, const Verbosity& verbosity) {
+                const PluginRegistry& registry, std::chrono::steady_clock::time_point begin,
+                const Verbosity& verbosity) {
     const std::vector<study::Unit> units = session.missing(shard);
     study::RunnerOptions how;
     how.threads = options.threads;
@@ -114,7 +116,8 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
     const study::Shard shard = shardFrom(options.shard);
     const std::filesystem::path folder = std::filesystem::path(options.session.store_file).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw UsageError(fmt::format("--db {}: there is no folder {}", options.session.store_file, folder.string()));
+        throw UsageError(
+            fmt::format("--db {}: there is no folder {}", options.session.store_file, folder.string()));
 
     const PluginRegistry registry = PluginRegistry::discover();
     study::Session session(options.session, registry);
@@ -144,19 +147,24 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
 }  // namespace
 
 void addStudy(CLI::App& app, Action& chosen) {
-    auto* command = app.add_subcommand("study",
-                                       "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
-                                       "study config/studies/consistency.ini --db consistency.db --threads 2");
+    auto* command = app.add_subcommand(
+        "study",
+        "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
+        "study config/studies/consistency.ini --db consistency.db --threads 2");
     auto options = std::make_shared<Options>();
     command->add_option("study", options->session.study_file, "Study INI file (doc/studies.md)")->required();
-    command->add_option("--db", options->session.store_file, "SQLite file of the rows; what it has is not run again")
+    command
+        ->add_option("--db", options->session.store_file,
+                     "SQLite file of the rows; what it has is not run again")
         ->required();
     command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts");
     command->add_option("--threads", options->threads, "Runs at the same time; rows do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--replicates", options->replicates, "Instead of [study] replicates")->check(CLI::Range(1, 1000000));
-    command->add_flag("--short", options->session.short_form, "As many replicates as [study] short_replicates");
+    command->add_option("--replicates", options->replicates, "Instead of [study] replicates")
+        ->check(CLI::Range(1, 1000000));
+    command->add_flag("--short", options->session.short_form,
+                      "As many replicates as [study] short_replicates");
     command->add_option("--merge", options->merge, "Take the rows of other files of this study; run nothing");
     command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
     command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
@@ -165,7 +173,8 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_option("--export", options->export_folder, "Folder for all rows, statistics, tables and figures");
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
     command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
-    command->add_flag("--any-build", options->session.any_build, "Keep rows that another build of the program made");
+    command->add_flag("--any-build", options->session.any_build,
+                      "Keep rows that another build of the program made");
     command->callback([&chosen, options] {
         if (options->replicates > 0) options->session.replicates = options->replicates;
         // Looking at the plan uses no row.
