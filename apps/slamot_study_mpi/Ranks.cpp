@@ -72,7 +72,8 @@ StudyTimes handOut(const mpi::communicator& world, const Plan& plan, const std::
         handTo(rank);
         count(rows);
     }
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), count.runsSeconds()};
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+            count.runsSeconds()};
 }
 
 void work(const mpi::communicator& world, const Plan& plan, const PluginRegistry& registry,
@@ -97,14 +98,16 @@ void requireSamePlan(const mpi::communicator& world, const Plan& plan) {
     Sha256 sum;
     for (const WorldPlan& one : plan.worlds)
         for (const RunPlan& run : one.runs)
-            for (const std::string& text : {run.key, plan.configs[run.config].build}) sum.add(text.data(), text.size());
+            for (const std::string& text : {run.key, plan.configs[run.config].build})
+                sum.add(text.data(), text.size());
     const std::string own = sum.hex();
     std::string first = own;
     mpi::broadcast(world, first, 0);
     if (own != first)
-        throw ConfigError(fmt::format("rank {} on {}: its study, program or plugins are not those of rank 0, expected the "
-                                      "same files everywhere",
-                                      world.rank(), mpi::environment::processor_name()));
+        throw ConfigError(
+            fmt::format("rank {} on {}: its study, program or plugins are not those of rank 0, expected the "
+                        "same files everywhere",
+                        world.rank(), mpi::environment::processor_name()));
 }
 
 }  // namespace slamot::study

@@ -1,6 +1,6 @@
 #pragma once
-// A study over MPI ranks: rank 0 owns the store and hands out units one by one, so that fast ranks take more; the
-// others run them and send the rows back.
+// A study over MPI ranks: rank 0 owns the store and hands out units one by one, so that fast ranks take more;
+// the others run them and send the rows back.
 #include <atomic>
 #include <boost/mpi/communicator.hpp>
 #include <functional>
@@ -10,7 +10,8 @@
 
 namespace slamot::study {
 
-/// Rank 0, with at least one other: returns when all units are done or, once stopped, all that were under way.
+/// Rank 0, with at least one other: returns when all units are done or, once stopped, all that were under
+/// way.
 StudyTimes handOut(const boost::mpi::communicator& world, const Plan& plan, const std::vector<Unit>& units,
                    const std::atomic<bool>& stop, const std::function<void(const StudyProgress&)>& progress,
                    const std::function<void(const Row&)>& take);

@@ -40,10 +40,12 @@ void addOptions(CLI::App& app, Options& options) {
     app.set_version_flag("--version", std::string("slamot_study_mpi ") + version);
     app.add_option("study", options.session.study_file, "Study INI file (doc/studies.md)")->required();
     app.add_option("--db", options.session.store_file, "SQLite file of the rows, of rank 0")->required();
-    app.add_option("--replicates", options.replicates, "Instead of [study] replicates")->check(CLI::Range(1, 1000000));
+    app.add_option("--replicates", options.replicates, "Instead of [study] replicates")
+        ->check(CLI::Range(1, 1000000));
     app.add_flag("--short", options.session.short_form, "As many replicates as [study] short_replicates");
     app.add_flag("--retry-failed", options.session.retry_failed, "Run failed rows again");
-    app.add_flag("--any-build", options.session.any_build, "Keep rows that another build of the program made");
+    app.add_flag("--any-build", options.session.any_build,
+                 "Keep rows that another build of the program made");
     app.add_flag("-q,--quiet", options.quiet, "No progress");
 }
 
@@ -56,8 +58,8 @@ class ProgressLines {
         if (quiet_ || Clock::now() - shown_ < std::chrono::seconds(5)) return;
         shown_ = Clock::now();
         const double elapsed = std::chrono::duration<double>(shown_ - begin_).count();
-        fmt::print(stderr, "study {}/{} runs, {} failed, {:.1f} runs/s, {:.0f} s left\n", now.done, now.total, now.failed,
-                   static_cast<double>(now.done) / elapsed,
+        fmt::print(stderr, "study {}/{} runs, {} failed, {:.1f} runs/s, {:.0f} s left\n", now.done, now.total,
+                   now.failed, static_cast<double>(now.done) / elapsed,
                    elapsed * static_cast<double>(now.total - now.done) / static_cast<double>(now.done));
     }
     study::StudyProgress last;
@@ -69,9 +71,10 @@ class ProgressLines {
 
 /// The exit code; when stopped, the other ranks have ended cleanly too.
 int firstRank(const mpi::communicator& world, const Options& options, const PluginRegistry& registry,
-               Clock::time_point begin) {
+              Clock::time_point begin) {
     study::Session session(options.session, registry);
-    for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot_study_mpi: {}\n", sentence);
+    for (const std::string& sentence : session.plan().skipped)
+        fmt::print(stderr, "slamot_study_mpi: {}\n", sentence);
     // Imports are there now; the others find them.
     world.barrier();
     const std::vector<study::Unit> units = session.missing({});
@@ -90,11 +93,13 @@ int firstRank(const mpi::communicator& world, const Options& options, const Plug
     }
     const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!options.quiet)
-        fmt::print("{}\n", study::timesInWords(progress.last, wall, times.runs_s, std::max(world.size() - 1, 1)));
+        fmt::print("{}\n",
+                   study::timesInWords(progress.last, wall, times.runs_s, std::max(world.size() - 1, 1)));
     const std::string state = session.stateInWords();
     fmt::print(state.find('\n') == std::string::npos ? stdout : stderr, "slamot_study_mpi: {}\n", state);
     if (!stop_requested) return exit_success;
-    fmt::print(stderr, "slamot_study_mpi: stopped; the rows so far are kept, the same command does the rest\n");
+    fmt::print(stderr,
+               "slamot_study_mpi: stopped; the rows so far are kept, the same command does the rest\n");
     return exit_failed;
 }
 
@@ -104,16 +109,17 @@ void otherRank(const mpi::communicator& world, const Options& options, const Plu
     request.short_form = options.session.short_form;
     request.replicates = options.session.replicates;
     request.work_folder = study::workFolderOf(options.session.store_file);
-    study::work(world, study::layOut(study::loadStudy(options.session.study_file), request, registry), registry,
-                stop_requested);
+    study::work(world, study::layOut(study::loadStudy(options.session.study_file), request, registry),
+                registry, stop_requested);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     const auto begin = Clock::now();
-    CLI::App app{"`slamot study` over the ranks of an MPI job: rank 0 hands out and keeps the rows, the others run.\n"
-                 "Example: mpirun -n 5 slamot_study_mpi config/studies/consistency.ini --db consistency.db"};
+    CLI::App app{
+        "`slamot study` over the ranks of an MPI job: rank 0 hands out and keeps the rows, the others run.\n"
+        "Example: mpirun -n 5 slamot_study_mpi config/studies/consistency.ini --db consistency.db"};
     Options options;
     addOptions(app, options);
     try {

@@ -1,18 +1,17 @@
 // What a study file means, and what is wrong with bad ones.
-#include "slamot/study/Plan.h"
-
 #include <filesystem>
 
 #include "StudyFolder.h"
 #include "slamot/core/random/RandomStream.h"
+#include "slamot/study/Plan.h"
 #include "support/Expect.h"
 
 namespace slamot::study {
 namespace {
 
+using test::messageOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using test::messageOf;
 
 class PlanTest : public StudyFolder {
   protected:
@@ -48,11 +47,12 @@ TEST_F(PlanTest, ALongerStudyBeginsWithTheShorterOnesRuns) {
 }
 
 TEST_F(PlanTest, SeedsPairConfigsAndGridPointsButNotWorlds) {
-    const Plan laid = plan(usual("2") + "[grid]\nekf_slamot.target.noise_std = 0.1 | 0.2\n[grid.scenario]\n"
-                                        "sensor.landmarks.range_std = 0.1 | 0.3\n");
+    const Plan laid = plan(usual("2") +
+                           "[grid]\nekf_slamot.target.noise_std = 0.1 | 0.2\n[grid.scenario]\n"
+                           "sensor.landmarks.range_std = 0.1 | 0.3\n");
     // 2 replicates of (2 scenarios x 2 points); in each 2 configs x 2 points.
-    EXPECT_THAT(worldNames(laid), ElementsAre("near-p1-1", "near-p2-1", "far-p1-1", "far-p2-1", "near-p1-2", "near-p2-2",
-                                              "far-p1-2", "far-p2-2"));
+    EXPECT_THAT(worldNames(laid), ElementsAre("near-p1-1", "near-p2-1", "far-p1-1", "far-p2-1", "near-p1-2",
+                                              "near-p2-2", "far-p1-2", "far-p2-2"));
     EXPECT_EQ(laid.runCount(), 32u);
     EXPECT_EQ(keysOf(laid).size(), 32u);
     EXPECT_EQ(laid.worlds[0].world_seed, laid.worlds[1].world_seed);
@@ -85,7 +85,8 @@ TEST_F(PlanTest, KeysTellApartWhatGivesOtherRowsAndNothingElse) {
 
 TEST_F(PlanTest, VariantsRunWhereTheySayAndWithTheSourcesConfig) {
     const Plan laid = plan(
-        "[study]\nreplicates = 1\n[scenario.a]\nfile = field.ini\nconfig = ekf.ini\n[scenario.b]\nfile = field.ini\n"
+        "[study]\nreplicates = 1\n[scenario.a]\nfile = field.ini\nconfig = ekf.ini\n[scenario.b]\nfile = "
+        "field.ini\n"
         "[config.own]\nekf_slamot.consistency = classic\non = a\n[config.file]\nfile = ekf.ini\non = b, a\n"
         "[config.b_only]\nfile = ekf.ini\nrun.estimator = dead_reckoning\non = b\n");
     ASSERT_EQ(laid.worlds.size(), 2u);
@@ -97,8 +98,9 @@ TEST_F(PlanTest, VariantsRunWhereTheySayAndWithTheSourcesConfig) {
     const Config& own = laid.configs[laid.worlds[0].runs[0].config].config;
     EXPECT_EQ(own.section("ekf_slamot").at("consistency").value, "classic");
     EXPECT_EQ(own.section("motion").at("wheelbase").value, "2");
-    EXPECT_THAT(mistake("[study]\n[scenario.a]\nfile = field.ini\n[config.c]\nekf_slamot.consistency = classic\n"),
-                HasSubstr("small.ini:4: [config.c] has no 'file' and source a no 'config'"));
+    EXPECT_THAT(
+        mistake("[study]\n[scenario.a]\nfile = field.ini\n[config.c]\nekf_slamot.consistency = classic\n"),
+        HasSubstr("small.ini:4: [config.c] has no 'file' and source a no 'config'"));
 }
 
 TEST_F(PlanTest, AMissingDatasetIsSkippedWithASentenceUnlessNothingRemains) {
@@ -106,12 +108,13 @@ TEST_F(PlanTest, AMissingDatasetIsSkippedWithASentenceUnlessNothingRemains) {
     const Plan laid = plan(usual("1") + log);
     EXPECT_EQ(laid.worlds.size(), 2u);
     EXPECT_THAT(laid.skipped, ElementsAre(HasSubstr("source mine is skipped: there is no no_such_folder")));
-    EXPECT_THAT(mistake("[study]\n" + log + "[config.c]\nfile = ekf.ini\n"), HasSubstr("nothing remains to run"));
+    EXPECT_THAT(mistake("[study]\n" + log + "[config.c]\nfile = ekf.ini\n"),
+                HasSubstr("nothing remains to run"));
 }
 
 TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
     const std::string begin = "[study]\nseed = 1\n[scenario.s]\nfile = field.ini\n";  // lines 1 to 4
-    const std::string config = "[config.c]\nfile = ekf.ini\n";                       // lines 5 and 6
+    const std::string config = "[config.c]\nfile = ekf.ini\n";                        // lines 5 and 6
     const auto line = [&](int number) { return "small.ini:" + std::to_string(number) + ": "; };
     const auto expect = [&](const std::string& text, int number, const std::string& says) {
         const std::string told = mistake(text);
@@ -141,7 +144,8 @@ TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | one\n", 8, "noise_std = 'one'");
     expect(begin + config + "[log.s]\nfiles = *.rawlog\n", 7, "have one name");
     expect(begin + config + "[log.l]\nimport = mrclam\n", 7, "has no 'files'");
-    expect(begin + config + "[log.l]\nimport = mrklam\nfiles = *.rawlog\nfolder = .\n", 8, "did you mean 'mrclam'?");
+    expect(begin + config + "[log.l]\nimport = mrklam\nfiles = *.rawlog\nfolder = .\n", 8,
+           "did you mean 'mrclam'?");
 }
 
 }  // namespace

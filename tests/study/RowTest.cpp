@@ -1,9 +1,8 @@
-#include "slamot/study/Row.h"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "StudyFolder.h"
+#include "slamot/study/Row.h"
 
 namespace slamot::study {
 namespace {

@@ -1,6 +1,4 @@
 // Rows do not depend on how they came to be.
-#include "slamot/study/Runner.h"
-
 #include <cmath>
 #include <filesystem>
 
@@ -8,6 +6,7 @@
 #include "slamot/rawlog/RawlogWriter.h"
 #include "slamot/run/RunJob.h"
 #include "slamot/sim/Simulation.h"
+#include "slamot/study/Runner.h"
 
 namespace slamot::study {
 namespace {
@@ -97,7 +96,8 @@ TEST_F(RunnerTest, ShardsAreEqualPartsOfEveryScenario) {
     const Plan laid = plan(usual("6"));
     for (int k = 1; k <= 3; ++k) {
         std::map<std::string, int> worlds;
-        for (const Unit& unit : unitsOf(laid, {}, {k, 3})) ++worlds[laid.sourceOf(laid.worlds[unit.world]).name];
+        for (const Unit& unit : unitsOf(laid, {}, {k, 3}))
+            ++worlds[laid.sourceOf(laid.worlds[unit.world]).name];
         EXPECT_EQ(worlds["near"], 2);
         EXPECT_EQ(worlds["far"], 2);
     }
@@ -130,15 +130,17 @@ TEST_F(RunnerTest, AWorldInMemoryGivesTheSameRunAsItsRawlog) {
         request.truth = &truth;
         const run::JobResult result = run::runLog(request, registry());
         EXPECT_EQ(result.estimate_hash, rows[r].estimate_hash);
-        EXPECT_EQ(result.summary["metrics"]["robot"]["position"]["rmse"], rows[r].metrics.at("robot.position.rmse"));
+        EXPECT_EQ(result.summary["metrics"]["robot"]["position"]["rmse"],
+                  rows[r].metrics.at("robot.position.rmse"));
     }
 }
 
 TEST_F(RunnerTest, RecordedLogsAreWorldsToo) {
     const Plan simulated = plan(usual("2"));
     for (const std::size_t w : {0, 2}) writeWorld(simulated, w, "log_" + std::to_string(10 - w) + ".rawlog");
-    const Plan laid = plan("[study]\nseries = robot_nees\n[log.mine]\nfiles = log_*.rawlog\nconfig = ekf.ini\n"
-                           "[config.classic]\nekf_slamot.consistency = classic\n[config.invariant]\n");
+    const Plan laid = plan(
+        "[study]\nseries = robot_nees\n[log.mine]\nfiles = log_*.rawlog\nconfig = ekf.ini\n"
+        "[config.classic]\nekf_slamot.consistency = classic\n[config.invariant]\n");
     ASSERT_EQ(laid.worlds.size(), 2u);
     EXPECT_THAT(laid.kinds[0].log_file, HasSubstr("log_8.rawlog"));  // 8 before 10
     EXPECT_THAT(laid.kinds[1].log_file, HasSubstr("log_10.rawlog"));
@@ -148,7 +150,8 @@ TEST_F(RunnerTest, RecordedLogsAreWorldsToo) {
     // log_10 is the simulation's first world; neither core draws random numbers.
     EXPECT_EQ(rows[2].estimate_hash, from_simulation[0].estimate_hash);
     EXPECT_EQ(rows[3].estimate_hash, from_simulation[1].estimate_hash);
-    EXPECT_EQ(rows[2].metrics.at("robot.position.rmse"), from_simulation[0].metrics.at("robot.position.rmse"));
+    EXPECT_EQ(rows[2].metrics.at("robot.position.rmse"),
+              from_simulation[0].metrics.at("robot.position.rmse"));
     EXPECT_EQ(rows[2].replicate, 2);
 }
 
@@ -174,8 +177,8 @@ TEST_F(RunnerTest, KeepsCompleteFoldersWhenAskedAndTheSameRows) {
     RunnerOptions options;
     options.unit.keep_folder = folder.path("kept");
     EXPECT_EQ(identities(run(laid, options)), identities(run(laid)));
-    for (const char* file : {"near-1/classic/trajectory.csv", "near-1/invariant/summary.json", "far-1/truth/robot.csv",
-                             "far-1/classic/estimate.rawlog"})
+    for (const char* file : {"near-1/classic/trajectory.csv", "near-1/invariant/summary.json",
+                             "far-1/truth/robot.csv", "far-1/classic/estimate.rawlog"})
         EXPECT_TRUE(std::filesystem::exists(folder.path("kept/") + file)) << file;
 }
 

@@ -1,14 +1,13 @@
-#include "slamot/study/Store.h"
-
 #include "StudyFolder.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/study/Store.h"
 #include "support/Expect.h"
 
 namespace slamot::study {
 namespace {
 
-using testing::HasSubstr;
 using test::messageOf;
+using testing::HasSubstr;
 
 class StoreTest : public StudyFolder {
   protected:
@@ -30,9 +29,11 @@ TEST_F(StoreTest, GivesTheRowsBackInThePlansOrderAndBitForBit) {
     const Store store(folder.path("a.db"), laid.study);
     const std::vector<Row> rows = store.rows(laid);
     std::vector<std::string> order;
-    for (const Row& row : rows) order.push_back(row.source + " " + row.variant + " " + std::to_string(row.replicate));
-    EXPECT_THAT(order, testing::ElementsAre("near classic 1", "near classic 2", "near invariant 1", "near invariant 2",
-                                            "far classic 1", "far classic 2", "far invariant 1", "far invariant 2"));
+    for (const Row& row : rows)
+        order.push_back(row.source + " " + row.variant + " " + std::to_string(row.replicate));
+    EXPECT_THAT(order, testing::ElementsAre("near classic 1", "near classic 2", "near invariant 1",
+                                            "near invariant 2", "far classic 1", "far classic 2",
+                                            "far invariant 1", "far invariant 2"));
     EXPECT_EQ(identities(rows), identities(computed));
     EXPECT_EQ(store.done(laid, false), keysOf(laid));
     EXPECT_EQ(rows[0].build, laid.configs[0].build);
@@ -94,7 +95,8 @@ TEST_F(StoreTest, MergesAndRefusesContradictions) {
     const std::string told = messageOf<LogError>([&] { store.merge({folder.path("c.db")}); });
     EXPECT_THAT(told, HasSubstr("c.db"));
     EXPECT_THAT(told, HasSubstr(computed[2].variant + " on " + computed[2].source));
-    EXPECT_THAT(messageOf<LogError>([&] { store.merge({folder.path("gone.db")}); }), HasSubstr("gone.db: is not there"));
+    EXPECT_THAT(messageOf<LogError>([&] { store.merge({folder.path("gone.db")}); }),
+                HasSubstr("gone.db: is not there"));
 }
 
 TEST_F(StoreTest, FilesOfSomethingElseAreRefusedUnchanged) {
@@ -105,7 +107,8 @@ TEST_F(StoreTest, FilesOfSomethingElseAreRefusedUnchanged) {
     const StudyFile other = load(usual("2"), "other");
     EXPECT_THAT(messageOf<LogError>([&] { Store(folder.path("a.db"), other); }),
                 HasSubstr("has the rows of study 'small', expected those of 'other'"));
-    EXPECT_THAT(messageOf<LogError>([&] { Store(folder.path("no_folder/a.db"), other); }), HasSubstr("no_folder"));
+    EXPECT_THAT(messageOf<LogError>([&] { Store(folder.path("no_folder/a.db"), other); }),
+                HasSubstr("no_folder"));
     Store store(folder.path("b.db"), laid.study);
     EXPECT_THAT(messageOf<LogError>([&] { store.merge({junk}); }), HasSubstr("junk.db"));
 }

@@ -23,11 +23,12 @@ class StudyFolder : public testing::Test {
     const test::TemporaryFolder folder;
 
     StudyFolder() {
-        folder.write("field.ini",
-                     "[scenario]\ndt = 0.2\nsteps = 15\n"
-                     "[world]\nlandmarks = 12\nbox = -10,30,-20,20\n"
-                     "[robot]\ncontroller = constant\nspeed = 2\nmotion = steered\nwheelbase = 2\nspeed_std = 0.2\n"
-                     "[sensor.landmarks]\nmax_range = 25\nrange_std = 0.1\nbearing_std_deg = 1\n");
+        folder.write(
+            "field.ini",
+            "[scenario]\ndt = 0.2\nsteps = 15\n"
+            "[world]\nlandmarks = 12\nbox = -10,30,-20,20\n"
+            "[robot]\ncontroller = constant\nspeed = 2\nmotion = steered\nwheelbase = 2\nspeed_std = 0.2\n"
+            "[sensor.landmarks]\nmax_range = 25\nrange_std = 0.1\nbearing_std_deg = 1\n");
         folder.write("ekf.ini",
                      "[run]\nestimator = ekf_slamot\nseed = 77\n[motion]\nmodel = steered\nwheelbase = 2\n"
                      "[ekf_slamot]\nconsistency = invariant\n");
@@ -50,7 +51,8 @@ class StudyFolder : public testing::Test {
         request.work_folder = folder.path("logs");
         return layOut(load(text), request, registry());
     }
-    static std::vector<Row> run(const Plan& plan, const std::vector<Unit>& units, const RunnerOptions& options = {}) {
+    static std::vector<Row> run(const Plan& plan, const std::vector<Unit>& units,
+                                const RunnerOptions& options = {}) {
         std::vector<Row> rows;
         runStudy(plan, units, registry(), options, [&](const Row& row) { rows.push_back(row); });
         return rows;

@@ -15,22 +15,24 @@ namespace fs = std::filesystem;
 
 /// What a run may leave in its folder.
 constexpr const char* output_names[] = {
-    "trajectory.csv", "trajectory.tum", "tracks.csv", "landmarks.csv", "landmarks_history.csv", "innovations.csv",
-    "steps.csv", "correlation.bin", "map.landmarks.gz", "scene.3Dscene", "estimate.rawlog", "estimate.rawlog.sha256",
-    "summary.json", "overview.svg", "overview.png", "overview.vg.json"};
+    "trajectory.csv",        "trajectory.tum",  "tracks.csv",      "landmarks.csv",
+    "landmarks_history.csv", "innovations.csv", "steps.csv",       "correlation.bin",
+    "map.landmarks.gz",      "scene.3Dscene",   "estimate.rawlog", "estimate.rawlog.sha256",
+    "summary.json",          "overview.svg",    "overview.png",    "overview.vg.json"};
 
-/// Names alone do not tell an estimate from somebody's data, so a folder is only written to when it is empty or the
-/// output of an earlier run, finished or broken off.
+/// Names alone do not tell an estimate from somebody's data, so a folder is only written to when it is empty
+/// or the output of an earlier run, finished or broken off.
 void requireOwnFolder(const std::string& folder) {
-    const bool earlier_run = fs::exists(folder + "/summary.json") || fs::exists(folder + "/trajectory.csv.part");
+    const bool earlier_run =
+        fs::exists(folder + "/summary.json") || fs::exists(folder + "/trajectory.csv.part");
     for (const char* name : output_names)
         if (!earlier_run && fs::exists(folder + "/" + name))
-            throw LogError(fmt::format("{}/{}: no run has left this there, expected a new folder for the outputs", folder,
-                                       name));
+            throw LogError(fmt::format(
+                "{}/{}: no run has left this there, expected a new folder for the outputs", folder, name));
 }
 
-/// Makes the folder and removes what an earlier run left there, so that no old file passes for a new one. The log
-/// itself may not be among that.
+/// Makes the folder and removes what an earlier run left there, so that no old file passes for a new one. The
+/// log itself may not be among that.
 void prepareFolder(const std::string& folder, const std::string& log_file) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -39,8 +41,9 @@ void prepareFolder(const std::string& folder, const std::string& log_file) {
                                    error ? error.message() : "it is no folder"));
     for (const char* name : output_names)
         if (fs::equivalent(folder + "/" + name, log_file, error))
-            throw LogError(fmt::format("{}/{}: is the log to read and would be overwritten, expected another output folder",
-                                       folder, name));
+            throw LogError(fmt::format(
+                "{}/{}: is the log to read and would be overwritten, expected another output folder", folder,
+                name));
     requireOwnFolder(folder);
     for (const char* name : output_names)
         for (const char* suffix : {"", ".part"}) {
@@ -69,7 +72,8 @@ std::vector<std::unique_ptr<Sink>> fileSinks(const RunConfig& config, const std:
 
 }  // namespace
 
-OutputFolder::OutputFolder(const std::string& folder, const AssembledRun& assembled, const std::string& log_file)
+OutputFolder::OutputFolder(const std::string& folder, const AssembledRun& assembled,
+                           const std::string& log_file)
     : folder_(folder) {
     prepareFolder(folder, log_file);
     sinks_ = fileSinks(assembled.config, folder, assembled.estimator->modeNames());

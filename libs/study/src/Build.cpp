@@ -14,9 +14,9 @@ namespace slamot::study {
 namespace {
 
 // Not libslamot_report and what else only some of the programs load.
-constexpr std::array computing_libraries = {"libslamot_core.",  "libslamot_rawlog.", "libslamot_sim.",
-                                            "libslamot_eval.",  "libslamot_run.",    "libslamot_study.",
-                                            "libblas",          "libopenblas",       "libm."};
+constexpr std::array computing_libraries = {"libslamot_core.", "libslamot_rawlog.", "libslamot_sim.",
+                                            "libslamot_eval.", "libslamot_run.",    "libslamot_study.",
+                                            "libblas",         "libopenblas",       "libm."};
 
 int addLibrary(dl_phdr_info* info, std::size_t, void* files) {
     const std::string name = std::filesystem::path(info->dlpi_name).filename().string();

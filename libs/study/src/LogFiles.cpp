@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 /// Held by one program at a time; the system lets go of it when the program ends, however it ends.
 class FileLock {
   public:
-    explicit FileLock(const std::string& file) : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
+    explicit FileLock(const std::string& file)
+        : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
         int failed = descriptor_ < 0;
         while (!failed && (failed = flock(descriptor_, LOCK_EX)) && errno == EINTR) failed = 0;
         if (failed) throw LogError(fmt::format("{}: cannot be locked ({})", file, std::strerror(errno)));
@@ -49,10 +50,12 @@ fs::path datasetsFolder(const StudyFile& study) {
 std::vector<std::string> matching(const fs::path& pattern) {
     glob_t found{};
     std::vector<std::string> files;
-    if (glob(pattern.c_str(), 0, nullptr, &found) == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+        files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
     globfree(&found);
-    std::sort(files.begin(), files.end(),
-              [](const std::string& a, const std::string& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
+    std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
+        return strverscmp(a.c_str(), b.c_str()) < 0;
+    });
     return files;
 }
 
@@ -64,14 +67,16 @@ const Importer& importerOf(const StudyFile& study, const Source& source) {
     }
     const auto near = nearestWord(source.log->importer, formats);
     throw ConfigError(fmt::format("{}: import = '{}' in [log.{}]{}, expected one of {}",
-                                  study.text.section("log." + source.name).at("import").origin, source.log->importer,
-                                  source.name, near ? " (did you mean '" + *near + "'?)" : "",
-                                  fmt::join(formats, ", ")));
+                                  study.text.section("log." + source.name).at("import").origin,
+                                  source.log->importer, source.name,
+                                  near ? " (did you mean '" + *near + "'?)" : "", fmt::join(formats, ", ")));
 }
 
 /// The folder with the imported logs, made when it is not there.
-fs::path imported(const Importer& importer, const fs::path& data, const Source& source, const std::string& work_folder) {
-    const std::string made_from = fmt::format("{}\n{}\n{}", importer.format, fs::absolute(data).string(), version);
+fs::path imported(const Importer& importer, const fs::path& data, const Source& source,
+                  const std::string& work_folder) {
+    const std::string made_from =
+        fmt::format("{}\n{}\n{}", importer.format, fs::absolute(data).string(), version);
     Sha256 sum;
     sum.add(made_from.data(), made_from.size());
     const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, sum.hex().substr(0, 12));
@@ -100,13 +105,16 @@ FoundLogs findLogs(const StudyFile& study, const Source& source, const std::stri
     if (!wanted.folder.empty()) {
         folder = datasetsFolder(study) / wanted.folder;
         if (!fs::is_directory(folder))
-            return {{}, fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name,
-                                    wanted.folder, std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
+            return {{},
+                    fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name,
+                                wanted.folder,
+                                std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
         if (importer) folder = imported(*importer, folder, source, work_folder);
     }
     const std::vector<std::string> files = matching(folder / wanted.files);
     if (files.empty())
-        return {{}, fmt::format("source {} is skipped: no {} in {}", source.name, wanted.files, folder.string())};
+        return {{},
+                fmt::format("source {} is skipped: no {} in {}", source.name, wanted.files, folder.string())};
     return {files, {}};
 }
 

@@ -11,8 +11,8 @@ struct FoundLogs {
     std::string why_none;  ///< a sentence, when the dataset is not there
 };
 
-/// The logs of a `[log.NAME]` section, by name with numbers in their order. An import is made once in `work_folder`
-/// and found there again by later and by simultaneous programs. Throws ConfigError or LogError.
+/// The logs of a `[log.NAME]` section, by name with numbers in their order. An import is made once in
+/// `work_folder` and found there again by later and by simultaneous programs. Throws ConfigError or LogError.
 FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder);
 
 }  // namespace slamot::study

@@ -26,19 +26,20 @@ namespace fs = std::filesystem;
 Config at(const GridPoint& point, Config config, const std::string& section, const Config& text) {
     for (const auto& [address, value] : point) {
         const auto dot = address.rfind('.');
-        config.set(address.substr(0, dot), address.substr(dot + 1), value, text.section(section).at(address).origin);
+        config.set(address.substr(0, dot), address.substr(dot + 1), value,
+                   text.section(section).at(address).origin);
     }
     return config;
 }
 
 /// Assembles the config, which checks it and loads its plugins.
-PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::size_t point, const Config& base,
-                            const PluginRegistry& registry) {
+PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::size_t point,
+                            const Config& base, const PluginRegistry& registry) {
     PlannedConfig planned;
     planned.variant = variant;
     planned.config_point = point;
-    planned.config =
-        at(study.config_grid[point], withOverrides(base, study.variants[variant].overrides), "grid", study.text);
+    planned.config = at(study.config_grid[point], withOverrides(base, study.variants[variant].overrides),
+                        "grid", study.text);
     planned.config.set("run", "seed", "1");
     const run::AssembledRun assembled = run::assembleRun(planned.config, registry);
     planned.digest = digestOf({assembled.canonical_config});
@@ -78,8 +79,8 @@ std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t 
                                           study.text.origin("scenario." + study.sources[source].name),
                                           study.sources[source].name, wanted.robot));
         const std::string landmarks = scenario.world.file.empty() ? "" : sha256OfFile(scenario.world.file);
-        kind.digest = digestOf(
-            {study.sources[source].name, kind.scenario->canonicalText(), std::to_string(wanted.robot), landmarks});
+        kind.digest = digestOf({study.sources[source].name, kind.scenario->canonicalText(),
+                                std::to_string(wanted.robot), landmarks});
         kinds.push_back(std::move(kind));
     }
     return kinds;
@@ -96,14 +97,15 @@ std::string truthDigest(const std::string& log_file) {
     return digestOf(contents);
 }
 
-std::vector<PlannedWorldKind> logKinds(const StudyFile& study, std::size_t source, const std::vector<std::string>& files) {
+std::vector<PlannedWorldKind> logKinds(const StudyFile& study, std::size_t source,
+                                       const std::vector<std::string>& files) {
     std::vector<PlannedWorldKind> kinds;
     for (const std::string& file : files) {
         PlannedWorldKind kind;
         kind.source = source;
         kind.log_file = file;
-        kind.digest = digestOf({study.sources[source].name, fs::path(file).filename().string(), sha256OfFile(file),
-                                truthDigest(file)});
+        kind.digest = digestOf({study.sources[source].name, fs::path(file).filename().string(),
+                                sha256OfFile(file), truthDigest(file)});
         kinds.push_back(std::move(kind));
     }
     return kinds;
@@ -121,14 +123,17 @@ WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate) {
     world.world_seed = derivedSeed(source_seed, static_cast<std::uint64_t>(replicate));
     for (std::size_t c = 0; c < plan.configs.size(); ++c) {
         const PlannedConfig& config = plan.configs[c];
-        if (config.source.value_or(world.source) != world.source || !runsOn(study.variants[config.variant], source)) continue;
+        if (config.source.value_or(world.source) != world.source ||
+            !runsOn(study.variants[config.variant], source))
+            continue;
         RunPlan run;
         run.variant = config.variant;
         run.config_point = config.config_point;
         run.config = c;
         run.estimator_seed = derivedSeed(world.world_seed, bitsOf(config.digest));
-        run.key = digestOf({plan.kinds[kind].digest, std::to_string(world.world_seed), study.variants[config.variant].name,
-                            config.digest, fmt::format("{}", fmt::join(study.parameters.series, ",")), version});
+        run.key = digestOf({plan.kinds[kind].digest, std::to_string(world.world_seed),
+                            study.variants[config.variant].name, config.digest,
+                            fmt::format("{}", fmt::join(study.parameters.series, ",")), version});
         world.runs.push_back(std::move(run));
     }
     return world;
@@ -161,8 +166,7 @@ std::string Plan::nameOf(const WorldPlan& world) const {
 }
 
 std::string Plan::nameOf(const RunPlan& run) const {
-    const std::string point =
-        study.config_grid.size() > 1 ? fmt::format("-p{}", run.config_point + 1) : "";
+    const std::string point = study.config_grid.size() > 1 ? fmt::format("-p{}", run.config_point + 1) : "";
     return variantOf(run).name + point;
 }
 
@@ -172,15 +176,17 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
     const StudyFile& file = plan.study;
     for (std::size_t variant = 0; variant < file.variants.size(); ++variant)
         for (std::size_t point = 0; point < file.config_grid.size(); ++point)
-            for (PlannedConfig& config : inFile(fmt::format("{}: [config.{}]", file.path, file.variants[variant].name),
-                                                [&] { return plannedConfigs(file, variant, point, registry); }))
+            for (PlannedConfig& config :
+                 inFile(fmt::format("{}: [config.{}]", file.path, file.variants[variant].name),
+                        [&] { return plannedConfigs(file, variant, point, registry); }))
                 plan.configs.push_back(std::move(config));
 
     std::vector<std::size_t> scenario_kinds;
     for (std::size_t source = 0; source < file.sources.size(); ++source) {
         if (!file.sources[source].scenario) continue;
-        for (PlannedWorldKind& kind : inFile(fmt::format("{}: [scenario.{}]", file.path, file.sources[source].name),
-                                             [&] { return scenarioKinds(file, source); })) {
+        for (PlannedWorldKind& kind :
+             inFile(fmt::format("{}: [scenario.{}]", file.path, file.sources[source].name),
+                    [&] { return scenarioKinds(file, source); })) {
             scenario_kinds.push_back(plan.kinds.size());
             plan.kinds.push_back(std::move(kind));
         }
@@ -200,8 +206,8 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
     for (int replicate = 1; replicate <= replicates; ++replicate)
         for (const std::size_t kind : scenario_kinds) plan.worlds.push_back(worldOf(plan, kind, replicate));
     if (plan.runCount() == 0)
-        throw ConfigError(fmt::format("{}: nothing remains to run{}{}", file.path, plan.skipped.empty() ? "" : "; ",
-                                      fmt::join(plan.skipped, "; ")));
+        throw ConfigError(fmt::format("{}: nothing remains to run{}{}", file.path,
+                                      plan.skipped.empty() ? "" : "; ", fmt::join(plan.skipped, "; ")));
     return plan;
 }
 

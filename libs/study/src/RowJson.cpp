@@ -18,7 +18,8 @@ Json number(double value) {
 double numberFrom(const Json& json) {
     if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();
     if (json.is_string())
-        return json == "inf" ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+        return json == "inf" ? std::numeric_limits<double>::infinity()
+                             : -std::numeric_limits<double>::infinity();
     return json.get<double>();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Rows and their parts as JSON. Every number comes back bit for bit; JSON has no word for those that are not finite,
-// so NaN is null and infinities are texts.
+// Rows and their parts as JSON. Every number comes back bit for bit; JSON has no word for those that are not
+// finite, so NaN is null and infinities are texts.
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -57,8 +57,8 @@ Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
     return row;
 }
 
-void fill(Row& row, const run::RunResult& result, const std::vector<std::string>& series, const LandmarkCounter& counter,
-          const Truth* truth) {
+void fill(Row& row, const run::RunResult& result, const std::vector<std::string>& series,
+          const LandmarkCounter& counter, const Truth* truth) {
     row.status = toText(result.status);
     row.reason = result.end_message;
     row.estimate_hash = result.estimate_hash;
@@ -66,7 +66,9 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     flatten(result.summary["counts"], "counts", row.metrics);
     row.series = seriesOf(series, result.record, counter.counts(), truth);
     const nlohmann::json& time = result.summary["time"];
-    const auto number = [](const nlohmann::json& json) { return json.is_number() ? json.get<double>() : Cost::none; };
+    const auto number = [](const nlohmann::json& json) {
+        return json.is_number() ? json.get<double>() : Cost::none;
+    };
     row.cost.wall_s = number(time["wall_s"]);
     row.cost.step_ms_mean = number(time["step_ms"]["mean"]);
     row.cost.step_ms_p50 = number(time["step_ms"]["p50"]);
@@ -75,8 +77,9 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
 }
 
 /// Runs the config through the world; an exception is for the caller.
-run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const World& world, const std::string& folder,
-                       const PluginRegistry& registry, const UnitOptions& options) {
+run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const World& world,
+                       const std::string& folder, const PluginRegistry& registry,
+                       const UnitOptions& options) {
     Config config = plan.configs[run.config].config;
     config.set("run", "seed", std::to_string(run.estimator_seed));
     MemoryMeter memory;
@@ -107,7 +110,8 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
 
 }  // namespace
 
-std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry, const UnitOptions& options) {
+std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry,
+                         const UnitOptions& options) {
     const auto stopped = [&] { return options.stop && options.stop->load(); };
     const WorldPlan& planned = plan.worlds[unit.world];
     std::vector<Row> rows;
@@ -122,7 +126,8 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         for (Row& row : rows) row.status = toText(run::RunStatus::failed), row.reason = sentenceOf(error);
         return rows;
     }
-    const std::string folder = options.keep_folder.empty() ? "" : options.keep_folder + "/" + plan.nameOf(planned);
+    const std::string folder =
+        options.keep_folder.empty() ? "" : options.keep_folder + "/" + plan.nameOf(planned);
     if (!folder.empty() && world->truth()) writeTruth(*world->truth(), folder + "/truth");
 
     for (std::size_t i = 0; i < unit.runs.size(); ++i) {
@@ -131,8 +136,9 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         Row& row = rows[i];
         row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
         try {
-            const run::RunStatus status = runInto(row, plan, run, *world,
-                                                  folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);
+            const run::RunStatus status =
+                runInto(row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run),
+                        registry, options);
             if (status == run::RunStatus::stopped) {
                 rows.resize(i);
                 return rows;

@@ -9,7 +9,8 @@
 namespace slamot::study {
 
 bool Shard::has(const WorldPlan& world) const {
-    const std::size_t turn = static_cast<std::size_t>(world.replicate - 1) + world.source + world.scenario_point;
+    const std::size_t turn =
+        static_cast<std::size_t>(world.replicate - 1) + world.source + world.scenario_point;
     return turn % static_cast<std::size_t>(count) == static_cast<std::size_t>(number - 1);
 }
 
@@ -57,7 +58,8 @@ StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const Plug
     RowCounter count(units, options.progress, take);
     std::size_t next = 0;
     if (options.threads == 1) {
-        for (; next < units.size() && !stopped(); ++next) count(runUnit(plan, units[next], registry, unit_options));
+        for (; next < units.size() && !stopped(); ++next)
+            count(runUnit(plan, units[next], registry, unit_options));
     } else {
         namespace tbb = oneapi::tbb;
         const auto threads = static_cast<std::size_t>(options.threads);
@@ -72,7 +74,8 @@ StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const Plug
                 tbb::make_filter<std::size_t, std::vector<Row>>(
                     tbb::filter_mode::parallel,
                     [&](std::size_t unit) { return runUnit(plan, units[unit], registry, unit_options); }) &
-                tbb::make_filter<std::vector<Row>, void>(tbb::filter_mode::serial_out_of_order, [&](const std::vector<Row>& rows) { count(rows); }));
+                tbb::make_filter<std::vector<Row>, void>(tbb::filter_mode::serial_out_of_order,
+                                                         [&](const std::vector<Row>& rows) { count(rows); }));
     }
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return {wall, count.runsSeconds()};

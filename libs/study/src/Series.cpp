@@ -39,7 +39,9 @@ class Appender {
 };
 
 const TrackEstimate* trackOf(SourceId target, const std::vector<TrackEstimate>& tracks) {
-    const auto less_likely = [](const TrackEstimate& a, const TrackEstimate& b) { return a.existence < b.existence; };
+    const auto less_likely = [](const TrackEstimate& a, const TrackEstimate& b) {
+        return a.existence < b.existence;
+    };
     const bool any_source =
         std::any_of(tracks.begin(), tracks.end(), [](const TrackEstimate& t) { return t.source.value >= 0; });
     if (!any_source) {
@@ -110,15 +112,18 @@ Series countSeries(const eval::RunRecord& record, const std::map<Stamp, std::int
 
 void requireKnownSeries(const std::vector<std::string>& names, const std::string& origin) {
     for (const std::string& name : names) {
-        if (isMode(name) || std::find(fixed_names.begin(), fixed_names.end(), name) != fixed_names.end()) continue;
+        if (isMode(name) || std::find(fixed_names.begin(), fixed_names.end(), name) != fixed_names.end())
+            continue;
         const auto near = nearestWord(name, fixed_names);
         throw ConfigError(fmt::format("{}: no series '{}'{}, expected {} or p_<mode>", origin, name,
-                                      near ? " (did you mean '" + *near + "'?)" : "", fmt::join(fixed_names, ", ")));
+                                      near ? " (did you mean '" + *near + "'?)" : "",
+                                      fmt::join(fixed_names, ", ")));
     }
 }
 
 std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
-                                       const std::map<Stamp, std::int64_t>& landmark_counts, const Truth* truth) {
+                                       const std::map<Stamp, std::int64_t>& landmark_counts,
+                                       const Truth* truth) {
     std::map<std::string, Series> all;
     if (record.trajectory.empty()) return all;
     const Stamp start = record.trajectory.front().stamp;

@@ -66,7 +66,8 @@ std::string timesInWords(const StudyProgress& progress, double wall_s, double ru
     if (progress.done == 0) return fmt::format("nothing was run, in {:.1f} s", wall_s);
     const double engine = wall_s * threads - runs_s;
     return fmt::format(
-        "{} runs, {} failed, in {:.1f} s; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and waiting {:.1f} % "
+        "{} runs, {} failed, in {:.1f} s; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and "
+        "waiting {:.1f} % "
         "of the runs",
         progress.done, progress.failed, wall_s, runs_s, runs_s / wall_s, threads, threads == 1 ? "" : "s",
         100 * engine / runs_s);

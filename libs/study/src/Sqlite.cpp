@@ -8,7 +8,8 @@ namespace slamot::study {
 
 Database::Database(const std::string& file) : file_(file) {
     sqlite3* handle = nullptr;
-    const int code = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+    const int code =
+        sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
     handle_.reset(handle);
     if (code != SQLITE_OK) fail();
     // Other programs may be writing to the same file.
@@ -20,7 +21,8 @@ void Database::execute(const std::string& sql) {
 }
 
 void Database::fail() const {
-    throw LogError(fmt::format("{}: {}, expected a file of rows of a study", file_, sqlite3_errmsg(handle_.get())));
+    throw LogError(
+        fmt::format("{}: {}, expected a file of rows of a study", file_, sqlite3_errmsg(handle_.get())));
 }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(database) {
@@ -30,7 +32,8 @@ Statement::Statement(Database& database, const std::string& sql) : database_(dat
 }
 
 Statement& Statement::bind(int parameter, const std::string& text) {
-    check(sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+    check(sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()),
+                            SQLITE_TRANSIENT));
     return *this;
 }
 
@@ -40,7 +43,8 @@ Statement& Statement::bind(int parameter, std::int64_t value) {
 }
 
 Statement& Statement::bindBlob(int parameter, const std::string& bytes) {
-    check(sqlite3_bind_blob(statement_.get(), parameter, bytes.data(), static_cast<int>(bytes.size()), SQLITE_TRANSIENT));
+    check(sqlite3_bind_blob(statement_.get(), parameter, bytes.data(), static_cast<int>(bytes.size()),
+                            SQLITE_TRANSIENT));
     return *this;
 }
 

@@ -22,7 +22,8 @@ constexpr const char* schema =
     " config_point TEXT, replicate INTEGER, world_seed TEXT, estimator_seed TEXT, status TEXT, reason TEXT,"
     " estimate_hash TEXT, metrics TEXT, series BLOB, cost TEXT, build TEXT) WITHOUT ROWID;";
 constexpr const char* columns =
-    "key, source, scenario_point, variant, config_point, replicate, world_seed, estimator_seed, status, reason,"
+    "key, source, scenario_point, variant, config_point, replicate, world_seed, estimator_seed, status, "
+    "reason,"
     " estimate_hash, metrics, series, cost, build";
 
 std::string cbor(const nlohmann::json& json) {
@@ -58,24 +59,27 @@ void requireStudy(Database& database, const std::string& name) {
     Statement tables(database, "SELECT count(*) FROM sqlite_master WHERE name IN ('study', 'rows')");
     tables.step();
     if (tables.integer(0) != 2)
-        throw LogError(fmt::format("{}: is a database of something else, expected a file of rows of a study", file));
+        throw LogError(
+            fmt::format("{}: is a database of something else, expected a file of rows of a study", file));
     Statement study(database, "SELECT name, format FROM study");
     const bool there = study.step();
     const std::string found_name = there ? study.text(0) : "", found_format = there ? study.text(1) : "";
     if (found_format != format)
-        throw LogError(fmt::format("{}: its rows are in another form ('{}'), expected '{}'", file, found_format, format));
+        throw LogError(fmt::format("{}: its rows are in another form ('{}'), expected '{}'", file,
+                                   found_format, format));
     if (found_name != name)
-        throw LogError(fmt::format("{}: has the rows of study '{}', expected those of '{}'", file, found_name, name));
+        throw LogError(
+            fmt::format("{}: has the rows of study '{}', expected those of '{}'", file, found_name, name));
 }
 
 }  // namespace
 
 struct Store::Impl {
-    Impl(const std::string& file, const StudyFile& study)
-        : database(file), name(study.name) {
+    Impl(const std::string& file, const StudyFile& study) : database(file), name(study.name) {
         open();
         insert = std::make_unique<Statement>(
-            database, fmt::format("INSERT OR IGNORE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
+            database,
+            fmt::format("INSERT OR IGNORE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
     }
 
     /// Makes the tables in an empty file, and never in a database of something else.
@@ -84,8 +88,8 @@ struct Store::Impl {
         any.step();
         if (any.integer(0) == 0) {
             any.reset();
-            // Readers and a writer at the same time, and a row a commit without waiting for the disk: a kill of the
-            // program loses nothing, only a power failure may lose the last rows.
+            // Readers and a writer at the same time, and a row a commit without waiting for the disk: a kill
+            // of the program loses nothing, only a power failure may lose the last rows.
             database.execute("PRAGMA journal_mode = WAL");
             database.execute(fmt::format("BEGIN IMMEDIATE; {}", schema));
             Statement(database, "INSERT INTO study SELECT ?, ? WHERE NOT EXISTS (SELECT * FROM study)")
@@ -120,18 +124,25 @@ std::set<std::string> Store::done(const Plan& plan, bool any_build) const {
             others += found->second != plan.configs[run.config].build;
         }
     if (others > 0 && !any_build)
-        throw LogError(fmt::format("{}: {} of its {} rows of this study were made by another build of the program or its "
-                                   "plugins, expected a new file, or --any-build to keep them",
-                                   impl_->database.file(), others, keys.size()));
+        throw LogError(fmt::format(
+            "{}: {} of its {} rows of this study were made by another build of the program or its "
+            "plugins, expected a new file, or --any-build to keep them",
+            impl_->database.file(), others, keys.size()));
     return keys;
 }
 
 void Store::add(const Row& row) {
     Statement& s = *impl_->insert;
-    s.bind(1, row.key).bind(2, row.source).bind(3, dumped(pointJson(row.scenario_point))).bind(4, row.variant);
+    s.bind(1, row.key)
+        .bind(2, row.source)
+        .bind(3, dumped(pointJson(row.scenario_point)))
+        .bind(4, row.variant);
     s.bind(5, dumped(pointJson(row.config_point))).bind(6, static_cast<std::int64_t>(row.replicate));
     s.bind(7, std::to_string(row.world_seed)).bind(8, std::to_string(row.estimator_seed));
-    s.bind(9, row.status).bind(10, row.reason).bind(11, row.estimate_hash).bind(12, dumped(metricsJson(row.metrics)));
+    s.bind(9, row.status)
+        .bind(10, row.reason)
+        .bind(11, row.estimate_hash)
+        .bind(12, dumped(metricsJson(row.metrics)));
     s.bindBlob(13, cbor(seriesJson(row.series))).bind(14, dumped(costJson(row.cost))).bind(15, row.build);
     s.step();
     s.reset();
@@ -154,8 +165,8 @@ std::vector<Row> Store::rows(const Plan& plan) const {
     std::vector<Wanted> wanted;
     for (const WorldPlan& world : plan.worlds)
         for (const RunPlan& run : world.runs)
-            wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point, world.replicate,
-                              &run.key});
+            wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point,
+                              world.replicate, &run.key});
     std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
         return std::tie(a.source, a.scenario_point, a.variant, a.config_point, a.replicate) <
                std::tie(b.source, b.scenario_point, b.variant, b.config_point, b.replicate);
@@ -192,12 +203,14 @@ void Store::merge(const std::vector<std::string>& files) {
             " WHERE NOT (a.status = b.status AND a.reason = b.reason AND a.estimate_hash = b.estimate_hash"
             " AND a.metrics = b.metrics AND a.series = b.series)");
         if (conflict.step())
-            throw LogError(fmt::format("{}: its row {} ({} on {}, replicate {}) differs from that in {}, expected equal "
-                                       "rows of equal keys",
-                                       file, conflict.text(0).substr(0, 12), conflict.text(2), conflict.text(1),
-                                       conflict.text(3), database.file()));
+            throw LogError(
+                fmt::format("{}: its row {} ({} on {}, replicate {}) differs from that in {}, expected equal "
+                            "rows of equal keys",
+                            file, conflict.text(0).substr(0, 12), conflict.text(2), conflict.text(1),
+                            conflict.text(3), database.file()));
         conflict.reset();
-        database.execute(fmt::format("INSERT OR IGNORE INTO main.rows ({0}) SELECT {0} FROM other.rows", columns));
+        database.execute(
+            fmt::format("INSERT OR IGNORE INTO main.rows ({0}) SELECT {0} FROM other.rows", columns));
         database.execute("DETACH other");
     }
 }

@@ -38,7 +38,8 @@ struct Setting {
 /// A section's settings in the order of the file.
 std::vector<Setting> settingsOf(const Config& text, const std::string& section) {
     std::vector<Setting> settings;
-    for (const auto& [key, entry] : text.section(section)) settings.push_back({key, entry.value, entry.origin});
+    for (const auto& [key, entry] : text.section(section))
+        settings.push_back({key, entry.value, entry.origin});
     std::sort(settings.begin(), settings.end(),
               [](const Setting& a, const Setting& b) { return lineOf(a.origin) < lineOf(b.origin); });
     return settings;
@@ -56,7 +57,8 @@ std::vector<std::string> namesAfter(const Config& text, const std::string& prefi
         const std::string name = section.substr(prefix.size());
         if (!isPlainName(name))
             fail(text.origin(section),
-                 fmt::format("[{}], expected a name of letters, digits, '_' and '-' after '{}'", section, prefix));
+                 fmt::format("[{}], expected a name of letters, digits, '_' and '-' after '{}'", section,
+                             prefix));
         section = name;
     }
     return sections;
@@ -72,7 +74,8 @@ std::pair<std::string, std::string> addressOf(const Setting& setting) {
     return {setting.key.substr(0, dot), setting.key.substr(dot + 1)};
 }
 
-/// Settings without a dot are the section's own and must be known; the others are overrides, which go into `config`.
+/// Settings without a dot are the section's own and must be known; the others are overrides, which go into
+/// `config`.
 class SourceSection {
   public:
     SourceSection(const Config& text, std::string name, std::vector<std::string> known, bool overrides)
@@ -94,7 +97,8 @@ class SourceSection {
     }
 
     const Setting* find(const std::string& key) const {
-        const auto found = std::find_if(own_.begin(), own_.end(), [&](const Setting& s) { return s.key == key; });
+        const auto found =
+            std::find_if(own_.begin(), own_.end(), [&](const Setting& s) { return s.key == key; });
         return found == own_.end() || found->value.empty() ? nullptr : &*found;
     }
     std::string value(const std::string& key) const { return find(key) ? find(key)->value : std::string(); }
@@ -106,8 +110,9 @@ class SourceSection {
         const fs::path path = (fs::path(text_.folder()) / setting->value).lexically_normal();
         std::error_code ignored;
         if (!fs::is_regular_file(path, ignored))
-            fail(setting->origin, fmt::format("{} = '{}' in [{}] is not there ({}), expected {} relative to the study",
-                                              key, setting->value, name_, path.string(), what));
+            fail(setting->origin,
+                 fmt::format("{} = '{}' in [{}] is not there ({}), expected {} relative to the study", key,
+                             setting->value, name_, path.string(), what));
         return Config::fromFile(path.string());
     }
     Config overrides() const {
@@ -131,7 +136,8 @@ void readStudySection(const Config& text, StudyParameters& p) {
     table.text("about", p.about, "What the study shows.")
         .seed("seed", p.seed, "Key of all worlds.")
         .integer("replicates", p.replicates, Interval::between(1, 1e6), "Worlds drawn of each scenario.")
-        .integer("short_replicates", p.short_replicates, Interval::between(1, 1e6), "The same, in the short form.")
+        .integer("short_replicates", p.short_replicates, Interval::between(1, 1e6),
+                 "The same, in the short form.")
         .real("diverged_above", p.diverged_above, "m", Interval::positive(),
               "A run whose position RMSE exceeds this counts as diverged.")
         .text("series", series, "Figures kept step by step.");
@@ -143,7 +149,9 @@ void readStudySection(const Config& text, StudyParameters& p) {
 Source readScenario(const Config& text, const std::string& name) {
     const SourceSection section(text, scenario_prefix + name, {"file", "robot", "config"}, true);
     std::optional<Config> file = section.file("file", "a scenario");
-    if (!file) fail(text.origin(scenario_prefix + name), fmt::format("[{}{}] has no 'file', expected a scenario", scenario_prefix, name));
+    if (!file)
+        fail(text.origin(scenario_prefix + name),
+             fmt::format("[{}{}] has no 'file', expected a scenario", scenario_prefix, name));
     ScenarioSource source{withOverrides(*std::move(file), section.overrides()), 0};
     if (const Setting* robot = section.find("robot")) {
         ParameterTable table("", "");
@@ -159,7 +167,8 @@ Source readLog(const Config& text, const std::string& name) {
     const SourceSection section(text, place, {"import", "folder", "files", "config"}, false);
     LogSourceFiles source{section.value("import"), section.value("folder"), section.value("files")};
     if (source.files.empty())
-        fail(text.origin(place), fmt::format("[{}] has no 'files', expected a pattern like robot_*.rawlog", place));
+        fail(text.origin(place),
+             fmt::format("[{}] has no 'files', expected a pattern like robot_*.rawlog", place));
     if (!source.importer.empty() && source.folder.empty())
         fail(text.origin(place),
              fmt::format("[{}] has no 'folder', expected the dataset's folder in SLAMOT_DATASETS", place));
@@ -168,21 +177,23 @@ Source readLog(const Config& text, const std::string& name) {
 
 Variant readVariant(const Config& text, const std::string& name, const std::vector<Source>& sources) {
     const SourceSection section(text, config_prefix + name, {"file", "on"}, true);
-    Variant variant{name, section.file("file", "a run's config"), section.overrides(), split(section.value("on"), ',')};
+    Variant variant{name, section.file("file", "a run's config"), section.overrides(),
+                    split(section.value("on"), ',')};
     std::vector<std::string> known;
     for (const Source& source : sources) known.push_back(source.name);
     for (const std::string& wanted : variant.on) {
         if (std::find(known.begin(), known.end(), wanted) != known.end()) continue;
         const auto near = nearestWord(wanted, known);
         fail(section.find("on")->origin,
-             fmt::format("on = '{}' in [{}{}]: no source '{}'{}, expected some of {}", section.value("on"), config_prefix,
-                         name, wanted, near ? " (did you mean '" + *near + "'?)" : "", fmt::join(known, ", ")));
+             fmt::format("on = '{}' in [{}{}]: no source '{}'{}, expected some of {}", section.value("on"),
+                         config_prefix, name, wanted, near ? " (did you mean '" + *near + "'?)" : "",
+                         fmt::join(known, ", ")));
     }
     for (const Source& source : sources)
         if (!variant.file && !source.config && runsOn(variant, source))
             fail(text.origin(config_prefix + name),
-                 fmt::format("[{}{}] has no 'file' and source {} no 'config', expected one of the two", config_prefix,
-                             name, source.name));
+                 fmt::format("[{}{}] has no 'file' and source {} no 'config', expected one of the two",
+                             config_prefix, name, source.name));
     return variant;
 }
 
@@ -192,12 +203,13 @@ std::vector<GridPoint> readGrid(const Config& text, const std::string& section) 
     for (const Setting& setting : settingsOf(text, section)) {
         addressOf(setting);
         const std::vector<std::string> values = split(setting.value, '|');
-        if (values.empty() || std::any_of(values.begin(), values.end(), [](const auto& v) { return v.empty(); }))
+        if (values.empty() ||
+            std::any_of(values.begin(), values.end(), [](const auto& v) { return v.empty(); }))
             fail(setting.origin, fmt::format("{} = '{}' in [{}], expected values separated by |", setting.key,
                                              setting.value, section));
         if (std::set<std::string>(values.begin(), values.end()).size() < values.size())
-            fail(setting.origin, fmt::format("{} = '{}' in [{}] has a value twice, expected each once", setting.key,
-                                             setting.value, section));
+            fail(setting.origin, fmt::format("{} = '{}' in [{}] has a value twice, expected each once",
+                                             setting.key, setting.value, section));
         std::vector<GridPoint> crossed;
         for (const GridPoint& point : points)
             for (const std::string& value : values) {
@@ -216,8 +228,8 @@ std::vector<Source> readSources(const Config& text) {
     for (const std::string& name : namesAfter(text, log_prefix)) {
         if (text.has(scenario_prefix + name))
             fail(text.origin(log_prefix + name),
-                 fmt::format("[{}{}] and [{}{}] have one name, expected names of their own", scenario_prefix, name,
-                             log_prefix, name));
+                 fmt::format("[{}{}] and [{}{}] have one name, expected names of their own", scenario_prefix,
+                             name, log_prefix, name));
         by_line.emplace_back(lineOf(text.origin(log_prefix + name)), readLog(text, name));
     }
     std::sort(by_line.begin(), by_line.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -229,12 +241,14 @@ std::vector<Source> readSources(const Config& text) {
 }  // namespace
 
 bool runsOn(const Variant& variant, const Source& source) {
-    return variant.on.empty() || std::find(variant.on.begin(), variant.on.end(), source.name) != variant.on.end();
+    return variant.on.empty() ||
+           std::find(variant.on.begin(), variant.on.end(), source.name) != variant.on.end();
 }
 
 Config withOverrides(Config config, const Config& overrides) {
     for (const std::string& section : overrides.sectionNames())
-        for (const auto& [key, entry] : overrides.section(section)) config.set(section, key, entry.value, entry.origin);
+        for (const auto& [key, entry] : overrides.section(section))
+            config.set(section, key, entry.value, entry.origin);
     return config;
 }
 

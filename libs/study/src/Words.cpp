@@ -11,8 +11,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
     std::istringstream in(text);
     for (std::string part; std::getline(in, part, separator);) {
         const auto first = part.find_first_not_of(" \t");
-        parts.push_back(first == std::string::npos ? ""
-                                                   : part.substr(first, part.find_last_not_of(" \t") - first + 1));
+        parts.push_back(
+            first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(" \t") - first + 1));
     }
     if (!text.empty() && text.back() == separator) parts.emplace_back();
     return parts;

@@ -26,8 +26,8 @@ void World::simulate(const Plan& plan, const WorldPlan& world, const std::functi
                                                         world.world_seed, [&](double) { return !stopped(); });
     if (logs.empty()) throw Stopped{};
     const int robot = plan.sourceOf(world).scenario->robot;
-    const auto log =
-        std::find_if(logs.begin(), logs.end(), [&](const sim::SimulatedLog& one) { return one.robot == robot; });
+    const auto log = std::find_if(logs.begin(), logs.end(),
+                                  [&](const sim::SimulatedLog& one) { return one.robot == robot; });
     observations_ = std::make_shared<const std::vector<mrpt::obs::CObservation::Ptr>>(log->observations());
     truth_ = std::move(log->truth);
     has_truth_ = true;

@@ -1,6 +1,7 @@
 #pragma once
-// What a study file asks for, before anything runs: every world, every run in it, their keys and seeds. All of it is
-// a function of the file and the program's version, so that serial, parallel, sharded and resumed studies agree.
+// What a study file asks for, before anything runs: every world, every run in it, their keys and seeds. All
+// of it is a function of the file and the program's version, so that serial, parallel, sharded and resumed
+// studies agree.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -32,7 +33,8 @@ struct ScenarioSource {
 
 /// Section `[log.NAME]`: recorded logs, each one world.
 struct LogSourceFiles {
-    /// Made by an importer from a folder of SLAMOT_DATASETS, or files beside the study; a pattern (`robot_*.rawlog`).
+    /// Made by an importer from a folder of SLAMOT_DATASETS, or files beside the study; a pattern
+    /// (`robot_*.rawlog`).
     std::string importer, folder, files;
 };
 
@@ -59,8 +61,8 @@ using GridPoint = std::vector<std::pair<std::string, std::string>>;
 struct StudyFile {
     std::string path, name;
     StudyParameters parameters;
-    std::vector<Source> sources;    ///< in the order of the file
-    std::vector<Variant> variants;  ///< in the order of the file
+    std::vector<Source> sources;                        ///< in the order of the file
+    std::vector<Variant> variants;                      ///< in the order of the file
     std::vector<GridPoint> config_grid, scenario_grid;  ///< at least one point, which may be empty
     Config text;  ///< all sections: tables, figures and checks are read from it by Analysis
 };
@@ -89,7 +91,7 @@ struct PlannedWorldKind {
 struct RunPlan {
     std::string key;  ///< SHA-256 of world, config, series and program version, as hex
     std::size_t variant = 0, config_point = 0;
-    std::size_t config = 0;  ///< index of Plan::configs
+    std::size_t config = 0;            ///< index of Plan::configs
     std::uint64_t estimator_seed = 0;  ///< f(world seed, config)
 };
 
@@ -126,8 +128,9 @@ struct PlanRequest {
     std::string work_folder;        ///< where importers put their logs
 };
 
-/// Lays out all runs; assembles each config once, so that a mistake in any of them is found before the first run, and
-/// so that all plugins are loaded before any thread starts. Throws ConfigError, PluginError or LogError.
+/// Lays out all runs; assembles each config once, so that a mistake in any of them is found before the first
+/// run, and so that all plugins are loaded before any thread starts. Throws ConfigError, PluginError or
+/// LogError.
 Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& registry);
 
 }  // namespace slamot::study

@@ -19,12 +19,13 @@ struct Shard {
 
 /// What is handed out as a whole: a world and those of its runs that are wanted.
 struct Unit {
-    std::size_t world = 0;           ///< index of Plan::worlds
+    std::size_t world = 0;          ///< index of Plan::worlds
     std::vector<std::size_t> runs;  ///< indices of WorldPlan::runs
 };
 
-/// The shard's runs that are not in `done`, in the plan's order. A simulated world is one unit, since it is made once;
-/// the runs of a recorded log are units of their own, since there are few such worlds and reading is cheap.
+/// The shard's runs that are not in `done`, in the plan's order. A simulated world is one unit, since it is
+/// made once; the runs of a recorded log are units of their own, since there are few such worlds and reading
+/// is cheap.
 std::vector<Unit> unitsOf(const Plan& plan, const std::set<std::string>& done, const Shard& shard);
 
 struct UnitOptions {
@@ -33,9 +34,10 @@ struct UnitOptions {
     std::string keep_folder;      ///< each run's complete output folder below it; empty: no files
 };
 
-/// Simulates or reads the world once and runs what the unit has of it. A run that throws is a row with its reason.
-/// Safe to call from several threads at once. Rows come in the unit's order; fewer when stopped.
-std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry, const UnitOptions& options);
+/// Simulates or reads the world once and runs what the unit has of it. A run that throws is a row with its
+/// reason. Safe to call from several threads at once. Rows come in the unit's order; fewer when stopped.
+std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry,
+                         const UnitOptions& options);
 
 struct StudyProgress {
     std::size_t done = 0, total = 0, failed = 0;  ///< runs; those of earlier sessions are not counted

@@ -9,8 +9,8 @@
 // landmark_count  landmarks in the map
 // p_<mode>        probability of a motion mode of the target's track, for estimators that have that mode
 //
-// The target is the one of lowest id in the truth; its track is the one with that source id or, where no track has
-// a source id, the one of highest existence.
+// The target is the one of lowest id in the truth; its track is the one with that source id or, where no
+// track has a source id, the one of highest existence.
 #include <map>
 #include <string>
 #include <vector>
@@ -37,6 +37,7 @@ class LandmarkCounter : public run::Sink {
 
 /// The series asked for that this run has; `truth` may be null.
 std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
-                                       const std::map<Stamp, std::int64_t>& landmark_counts, const Truth* truth);
+                                       const std::map<Stamp, std::int64_t>& landmark_counts,
+                                       const Truth* truth);
 
 }  // namespace slamot::study

@@ -15,18 +15,19 @@ class Store {
     Store(const std::string& file, const StudyFile& study);
     ~Store();
 
-    /// The plan's runs that are there. Rows of the plan that another build of the program made are refused with a
-    /// LogError unless `any_build`: they may not be what this one would compute.
+    /// The plan's runs that are there. Rows of the plan that another build of the program made are refused
+    /// with a LogError unless `any_build`: they may not be what this one would compute.
     std::set<std::string> done(const Plan& plan, bool any_build) const;
     /// On disk when this returns: a kill loses nothing that was added. A row that is there already stays.
     void add(const Row& row);
     void erase(const std::set<std::string>& keys);
-    /// Those of the plan, by source, scenario's point, variant, config's point, replicate, each as the plan has them.
-    /// Rows of earlier forms of the study stay in the file and are left out.
+    /// Those of the plan, by source, scenario's point, variant, config's point, replicate, each as the plan
+    /// has them. Rows of earlier forms of the study stay in the file and are left out.
     std::vector<Row> rows(const Plan& plan) const;
     /// Rows in the file, whatever the plan.
     std::size_t count() const;
-    /// Takes the rows of other stores of the same study. Throws LogError; two different rows of one key are an error.
+    /// Takes the rows of other stores of the same study. Throws LogError; two different rows of one key are
+    /// an error.
     void merge(const std::vector<std::string>& files);
 
   private:
