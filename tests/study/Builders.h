@@ -1,7 +1,5 @@
 #pragma once
 // Small studies and rows made by hand.
-#include <fmt/format.h>
-
 #include <string>
 #include <vector>
 
@@ -16,8 +14,8 @@ inline StudyFile studyOf(const std::string& text) {
     study.path = "demo.ini";
     study.name = "demo";
     study.parameters.series = {"robot_nees", "robot_error"};
-    for (const char* name : {"paper1", "quiet"}) study.sources.push_back({name, {}, {}});
-    for (const char* name : {"classic", "invariant"}) study.variants.push_back({name, {}, {}});
+    for (const char* name : {"paper1", "quiet"}) study.sources.emplace_back().name = name;
+    for (const char* name : {"classic", "invariant"}) study.variants.emplace_back().name = name;
     study.config_grid = study.scenario_grid = {GridPoint{}};
     study.text = Config::fromText(text, "demo.ini");
     return study;
@@ -26,7 +24,7 @@ inline StudyFile studyOf(const std::string& text) {
 /// A complete run of no grid with one figure.
 inline Row rowOf(const std::string& source, const std::string& variant, int replicate, double rmse) {
     Row row;
-    row.key = fmt::format("{}/{}/{}", source, variant, replicate);
+    row.key = source + "/" + variant + "/" + std::to_string(replicate);
     row.source = source;
     row.variant = variant;
     row.replicate = replicate;

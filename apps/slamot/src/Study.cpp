@@ -5,6 +5,9 @@
 
 #include "Command.h"
 #include "Progress.h"
+#include "slamot/study/Checks.h"
+#include "slamot/study/Export.h"
+#include "slamot/study/Page.h"
 #include "slamot/study/Session.h"
 
 namespace slamot::app {
@@ -15,7 +18,9 @@ struct Options {
     std::string shard, keep;
     std::vector<std::string> merge;
     int threads = 1, replicates = 0;
-    bool list = false;
+    bool list = false, check = false, no_run = false;
+    std::string export_folder;
+    std::vector<std::string> pages;
 };
 
 study::Shard shardFrom(const std::string& text) {
@@ -85,6 +90,27 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
     return !interrupted();
 }
 
+/// The command that makes a page again.
+std::string commandOf(const Options& options, const std::string& page) {
+    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file, options.session.store_file, page);
+}
+
+/// What the rows say, where it was asked for; false when a check failed.
+bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
+    if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
+    const std::vector<study::Row> rows = session.rows();
+    const study::Findings findings{session.plan().study, analysis, rows};
+    study::CheckReport checks;
+    if (options.check) {
+        checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
+        fmt::print("{}", study::toMarkdown(study::checkTable(checks)));
+    }
+    if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
+    for (const std::string& page : options.pages)
+        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)), options.check ? &checks : nullptr);
+    return !options.check || checks.passed();
+}
+
 int studyJob(const Options& options, const Verbosity& verbosity) {
     const auto begin = std::chrono::steady_clock::now();
     const study::Shard shard = shardFrom(options.shard);
@@ -95,6 +121,10 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
 
     const PluginRegistry registry = PluginRegistry::discover();
     study::Session session(options.session, registry);
+    // A mistake in a table must not come to light after hours of runs.
+    const study::Analysis analysis = study::readAnalysis(session.plan().study);
+    if (options.check && analysis.checks.empty())
+        throw UsageError(fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
     for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot: {}\n", sentence);
     if (options.list) {
         printPlan(session.plan(), session.store().done(session.plan(), true), shard);
@@ -103,17 +133,15 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
     bool complete = true;
     if (!options.merge.empty())
         session.store().merge(options.merge);
-    else
+    else if (!options.no_run)
         complete = runMissing(session, options, shard, registry, begin, verbosity);
     const std::string state = session.stateInWords();
     if (state.find('\n') != std::string::npos)
         fmt::print(stderr, "slamot: {}\n", state);
     else if (!verbosity.quiet)
         fmt::print("{}\n", state);
-    // Here --check, --export and --fill have session.plan() and session.rows().
-    if (!complete)
-        throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
-    return exit_success;
+    if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
+    return tellFindings(session, analysis, options) ? exit_success : exit_failed;
 }
 
 }  // namespace
@@ -140,6 +168,10 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_option("--merge", options->merge, "Take the rows of other files of this study; run nothing");
     command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
     command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
+    command->add_flag("--no-run", options->no_run, "Run nothing: only what the rows there are say");
+    command->add_flag("--check", options->check, "Compare with the intervals of [check.*]; exit 1 when one fails");
+    command->add_option("--export", options->export_folder, "Folder for all rows, statistics, tables and figures");
+    command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
     command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
     command->add_flag("--any-build", options->session.any_build,
                       "Keep rows that another build of the program made");

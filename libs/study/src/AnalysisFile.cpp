@@ -11,7 +11,7 @@ namespace slamot::study {
 namespace {
 
 /// From SI units and radians.
-const std::vector<std::pair<std::string, Unit>> unit_names = {
+const std::vector<std::pair<std::string, DisplayUnit>> unit_names = {
     {"deg", {"deg", 57.295779513082320877}}, {"mrad", {"mrad", 1e3}}, {"mm", {"mm", 1e3}}, {"cm", {"cm", 100}},
     {"km", {"km", 1e-3}},                    {"ms", {"ms", 1e3}},     {"us", {"us", 1e6}}, {"%", {"%", 100}}};
 
@@ -38,7 +38,7 @@ void readUnits(const Config& config, Analysis& analysis) {
     const std::string section = "units";
     for (const auto& [figure, entry] : config.section(section)) {
         requireWord(entry, section, figure, shownNames(analysis), "figure of a table, figure or check");
-        Unit& unit = analysis.units[figure];
+        DisplayUnit& unit = analysis.units[figure];
         std::vector<std::string> known;
         for (const auto& [name, value] : unit_names) {
             known.push_back(name);

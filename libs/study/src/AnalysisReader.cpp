@@ -13,6 +13,7 @@ const std::vector<std::pair<std::string, TableKind>> table_kinds = {
     {"means", TableKind::means},           {"paired", TableKind::paired}, {"consistency", TableKind::consistency},
     {"divergence", TableKind::divergence}, {"ranks", TableKind::ranks},   {"runs", TableKind::runs}};
 const std::vector<std::pair<std::string, PlotKind>> plot_kinds = {{"over_parameter", PlotKind::over_parameter},
+                                                                  {"against", PlotKind::against},
                                                                   {"over_time", PlotKind::over_time},
                                                                   {"bands", PlotKind::bands}};
 const std::vector<std::pair<std::string, Shown>> shown_names = {
@@ -75,6 +76,8 @@ ParameterTable describe(PlotSpec& spec) {
     if (spec.kind == PlotKind::over_parameter) {
         addWords(table, "figures", spec.figures, "Metrics or costs of a run, one panel each.");
         table.text("parameter", spec.parameter, "Address of the grid.");
+    } else if (spec.kind == PlotKind::against) {
+        addWords(table, "figures", spec.figures, "Two metrics or costs of a run, along x and y.");
     } else {
         addWords(table, "series", spec.series, "Series, one panel each.");
     }
@@ -154,12 +157,18 @@ PlotSpec readPlot(const StudyFile& study, const std::string& section) {
     spec.kind = requiredChoice(study.text, section, "kind", plot_kinds);
     load(describe(spec), study.text);
     completeSelection(study, section, spec.selection);
-    if (spec.kind != PlotKind::over_parameter) {
+    if (spec.kind == PlotKind::over_time || spec.kind == PlotKind::bands) {
         const auto require = spec.kind == PlotKind::bands ? requireNees : requireSeries;
         require(study, section, "series", spec.series);
         return spec;
     }
     requireFigures(study, section, "figures", spec.figures);
+    if (spec.kind == PlotKind::against) {
+        if (spec.figures.size() != 2)
+            refuse(study.text.section(section).at("figures"), section,
+                   fmt::format("{} in 'figures', expected two: along x and along y,", spec.figures.size()));
+        return spec;
+    }
     const Config::Entry& entry = requiredEntry(study.text, section, "parameter", "an address of the grid");
     std::vector<std::string> addresses = addressesOf(study.scenario_grid);
     for (const std::string& address : addressesOf(study.config_grid)) addresses.push_back(address);

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "AnalysisReader.h"
+#include "Words.h"
 
 namespace slamot::study {
 namespace {
@@ -65,8 +65,7 @@ GridPoint readWhere(const StudyFile& study, const std::string& section) {
     if (found == entries.end()) return {};
     const Config::Entry& entry = found->second;
     GridPoint wanted;
-    std::stringstream parts(entry.value);
-    for (std::string part; std::getline(parts, part, ';');) {
+    for (const std::string& part : split(entry.value, ';')) {
         const auto equals = part.find('=');
         if (equals == std::string::npos)
             refuse(entry, section, fmt::format("where = '{}', expected address=value; address=value", entry.value));

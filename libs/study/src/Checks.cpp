@@ -34,12 +34,11 @@ PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*
     result.cell = {check.source, variant, check.scenario_point, check.config_point, {}};
     const StudyFile& study = plan.study;
     for (const WorldPlan& world : plan.worlds) {
-        if (study.sources[world.source].name != check.source ||
+        if (plan.sourceOf(world).name != check.source ||
             study.scenario_grid[world.scenario_point] != check.scenario_point)
             continue;
         for (const RunPlan& run : world.runs) {
-            if (study.variants[run.variant].name != variant || study.config_grid[run.config_point] != check.config_point)
-                continue;
+            if (plan.variantOf(run).name != variant || study.config_grid[run.config_point] != check.config_point) continue;
             ++result.planned;
             if (const auto found = by_key.find(run.key); found != by_key.end()) result.cell.rows.push_back(found->second);
         }
@@ -195,7 +194,7 @@ Table checkTable(const CheckReport& report) {
                                   : r.state == CheckState::failed ? "FAILED"
                                                                   : "not checked";
         const std::string separator = r.about.empty() || r.reason.empty() ? "" : "; ";
-        const auto number = [](double value) { return Field{numberText(value, 4), {csvNumber(value)}}; };
+        const auto number = [](double value) { return Field{numberText(value, 5), {csvNumber(value)}}; };
         const auto bound = [](double value) { return Field{csvNumber(value), {csvNumber(value)}}; };
         table.lines.push_back({{{r.name, {r.name}},
                                 {r.what, {r.what}},

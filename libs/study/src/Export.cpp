@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "CostFields.h"
 #include "CsvLine.h"
 #include "Selected.h"
 #include "slamot/report/Figure.h"
@@ -16,9 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
-
-const Words cost_names = {"cost.wall_s",      "cost.simulate_s",  "cost.step_ms_mean", "cost.step_ms_p50",
-                          "cost.step_ms_p99", "cost.step_ms_max", "cost.memory_mb"};
 
 Words operator+(Words a, const Words& b) {
     a.insert(a.end(), b.begin(), b.end());
@@ -77,8 +75,8 @@ class Exporter {
         std::set<std::string> metrics;
         for (const Row& row : findings.rows)
             for (const auto& [name, value] : row.metrics) metrics.insert(name);
-        metrics_.assign(metrics.begin(), metrics.end());
-        figures_ = metrics_ + cost_names;
+        figures_.assign(metrics.begin(), metrics.end());
+        for (const auto& [cost, field] : cost_fields) figures_.push_back(std::string("cost.") + cost);
     }
 
     void rows() const {
@@ -199,7 +197,7 @@ class Exporter {
     fs::path folder_;
     Selection all_;
     std::vector<Cell> cells_;
-    Words metrics_, figures_;
+    Words figures_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "CostFields.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/eval/Metrics.h"
 
@@ -47,9 +48,7 @@ std::vector<std::string> namesOfMetrics() {
 const std::vector<std::string>& names() {
     static const std::vector<std::string> all = [] {
         std::vector<std::string> list = namesOfMetrics();
-        for (const char* cost : {"wall_s", "simulate_s", "step_ms_mean", "step_ms_p50", "step_ms_p99", "step_ms_max",
-                                 "memory_mb"})
-            list.push_back(std::string("cost.") + cost);
+        for (const auto& [cost, field] : cost_fields) list.push_back(std::string("cost.") + cost);
         return list;
     }();
     return all;
@@ -58,8 +57,8 @@ const std::vector<std::string>& names() {
 }  // namespace
 
 bool isFigure(const std::string& name) {
-    // Targets and sensors have the names the log gives them.
-    for (const std::string open : {"targets.by_target.", "nis."})
+    // Targets and sensors have the names the log gives them, counts those of the run's summary.
+    for (const std::string open : {"targets.by_target.", "nis.", "counts."})
         if (name.rfind(open, 0) == 0) return true;
     return std::find(names().begin(), names().end(), name) != names().end();
 }

@@ -51,6 +51,20 @@ double shownLow(double low, double value, bool logarithmic) {
     return logarithmic && low <= 0 ? value : low;
 }
 
+/// Lines in the order of their first point, each by rising x.
+struct Curves {
+    std::vector<std::string> labels;
+    std::map<std::string, std::map<double, Statistic>> points;
+    RunCount runs;
+
+    void add(const std::string& label, double x, const Statistic& y) {
+        if (y.count == 0 || !std::isfinite(x)) return;
+        if (points.count(label) == 0) labels.push_back(label);
+        points[label][x] = y;
+        runs.add(y.count);
+    }
+};
+
 class Drawing {
   public:
     Drawing(const PlotSpec& spec, const Findings& findings) : spec_(spec), findings_(findings) {}
@@ -64,7 +78,7 @@ class Drawing {
             report::Panel panel = panelOf(subject);
             panel.height = subjects.size() > 1 ? 210 : 300;
             panel.title = subject.title;
-            panel.y.label = analysis().label(subject.name);
+            panel.y.label = analysis().label(spec_.kind == PlotKind::against ? spec_.figures[1] : subject.name);
             panel.y.logarithmic = spec_.logarithmic_y;
             panel.x.logarithmic = spec_.logarithmic_x;
             if (panel.layers.empty()) panel.note = "no run has this";
@@ -78,6 +92,8 @@ class Drawing {
     bool ofMedians() const { return spec_.shown == Shown::median; }
 
     std::vector<Subject> subjectsOf() const {
+        if (spec_.kind == PlotKind::against)  // all in one, whatever the source
+            return {{spec_.figures[0], "", selectedCells(findings_, spec_.selection)}};
         std::vector<std::pair<std::string, std::vector<Cell>>> panels;  // by title
         for (const Cell& cell : selectedCells(findings_, spec_.selection)) {
             const std::string title = titleOf(cell);
@@ -95,6 +111,7 @@ class Drawing {
     report::Panel panelOf(const Subject& subject) const {
         switch (spec_.kind) {
             case PlotKind::over_parameter: return overParameter(subject);
+            case PlotKind::against: return against(subject);
             case PlotKind::over_time: return overTime(subject);
             case PlotKind::bands: return bands(subject);
         }
@@ -130,28 +147,35 @@ class Drawing {
         return numberFromText(value).value_or(Statistic::none);
     }
 
-    report::Panel overParameter(const Subject& subject) const {
-        // Lines in the order of their first cell, each by rising parameter.
-        std::vector<std::string> labels;
-        std::map<std::string, std::map<double, Statistic>> lines;
-        RunCount runs;
-        for (const Cell& cell : subject.cells) {
-            const Statistic s =
-                scaled(statisticOf(figureOf(cell, subject.name)), analysis().factor(subject.name));
-            if (s.count == 0) continue;
-            const std::string label = labelOf(cell);
-            if (lines.count(label) == 0) labels.push_back(label);
-            lines[label][parameterOf(cell)] = s;
-            runs.add(s.count);
-        }
+    Statistic statisticOfCell(const Cell& cell, const std::string& figure) const {
+        return scaled(statisticOf(figureOf(cell, figure)), analysis().factor(figure));
+    }
+    double shownOf(const Statistic& s) const { return ofMedians() ? s.median : s.mean; }
 
+    report::Panel overParameter(const Subject& subject) const {
+        Curves curves;
+        for (const Cell& cell : subject.cells)
+            curves.add(labelOf(cell), parameterOf(cell), statisticOfCell(cell, subject.name));
+        return panelOf(curves, spec_.parameter);
+    }
+
+    /// A point for each cell; the interval is that along y.
+    report::Panel against(const Subject& subject) const {
+        Curves curves;
+        for (const Cell& cell : subject.cells)
+            curves.add(labelOf(cell), shownOf(statisticOfCell(cell, spec_.figures[0])),
+                       statisticOfCell(cell, spec_.figures[1]));
+        return panelOf(curves, spec_.figures[0]);
+    }
+
+    report::Panel panelOf(const Curves& curves, const std::string& along_x) const {
         report::Panel panel;
-        panel.x.label = analysis().label(spec_.parameter);
-        for (std::size_t i = 0; i < labels.size(); ++i) {
+        panel.x.label = analysis().label(along_x);
+        for (std::size_t i = 0; i < curves.labels.size(); ++i) {
             const report::SeriesStyle style = report::seriesStyle(i);
-            report::Line line{labels[i], {}, style.colour, 1.5, style.dash};
-            for (const auto& [x, s] : lines[labels[i]]) {
-                const double y = ofMedians() ? s.median : s.mean;
+            report::Line line{curves.labels[i], {}, style.colour, 1.5, style.dash};
+            for (const auto& [x, s] : curves.points.at(curves.labels[i])) {
+                const double y = shownOf(s);
                 const double low = ofMedians() ? s.median_low : s.mean - s.half_width;
                 const double high = ofMedians() ? s.median_high : s.mean + s.half_width;
                 line.points.emplace_back(x, y);
@@ -162,7 +186,8 @@ class Drawing {
             panel.layers.push_back(line);
             panel.layers.push_back(report::Points{"", line.points, style.colour, report::Symbol::dot, 6});
         }
-        panel.note = fmt::format("{} of {}, upright lines: 95 % interval", ofMedians() ? "Median" : "Mean", runs.text());
+        panel.note =
+            fmt::format("{} of {}, upright lines: 95 % interval", ofMedians() ? "Median" : "Mean", curves.runs.text());
         return panel;
     }
 

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstdlib>
-#include <sstream>
+
+#include "Words.h"
 
 namespace slamot::study {
 namespace {
@@ -15,13 +14,6 @@ namespace {
 int lineOf(const std::string& origin) {
     const auto colon = origin.rfind(':');
     return colon == std::string::npos ? 0 : std::atoi(origin.c_str() + colon + 1);
-}
-
-std::vector<std::string> partsOf(const std::string& text) {
-    std::vector<std::string> parts;
-    std::stringstream in(text + ",");  // so that an empty last part is seen
-    for (std::string part; std::getline(in, part, ',');) parts.push_back(trimmed(part));
-    return parts;
 }
 
 }  // namespace
@@ -43,9 +35,7 @@ std::vector<std::string> sectionsOf(const Config& config, const std::string& pre
 
 std::string nameOf(const Config& config, const std::string& section, const std::string& prefix) {
     const std::string name = section.substr(prefix.size());
-    const bool plain = std::all_of(name.begin(), name.end(),
-                                   [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-    if (name.empty() || !plain)
+    if (!isPlainName(name))
         throw ConfigError(fmt::format("{}: [{}] names no file, expected letters, digits, '_' and '-' after '{}'",
                                       config.origin(section), section, prefix));
     return name;
@@ -55,10 +45,10 @@ void addWords(ParameterTable& table, const std::string& key, std::vector<std::st
     const std::string expected = "names separated by commas, none twice";
     table.custom({key, "-", expected, help,
                   [&field, expected](const std::string& text) -> std::optional<std::string> {
-                      std::vector<std::string> words = partsOf(text), sorted = words;
+                      std::vector<std::string> words = split(text, ','), sorted = words;
                       std::sort(sorted.begin(), sorted.end());
                       const bool doubled = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-                      if (doubled || sorted.front().empty()) return expected;
+                      if (doubled || sorted.empty() || sorted.front().empty()) return expected;
                       field = std::move(words);
                       return std::nullopt;
                   },
@@ -69,7 +59,7 @@ void addBounds(ParameterTable& table, const std::string& key, eval::Band& field,
     const std::string expected = "two numbers 'low, high', low not above high";
     table.custom({key, "-", expected, help,
                   [&field, expected](const std::string& text) -> std::optional<std::string> {
-                      const std::vector<std::string> parts = partsOf(text);
+                      const std::vector<std::string> parts = split(text, ',');
                       if (parts.size() != 2) return expected;
                       const auto low = numberFromText(parts[0]), high = numberFromText(parts[1]);
                       if (!low || !high || !(*low <= *high)) return expected;

@@ -260,7 +260,7 @@ StudyFile loadStudy(const std::string& path) {
     const Config& text = study.text;
     std::vector<std::string> open = {scenario_prefix, log_prefix, config_prefix};
     open.insert(open.end(), analysis_prefixes.begin(), analysis_prefixes.end());
-    requireKnownSections(text, {"study", "labels", "grid", "grid.scenario"}, open);
+    requireKnownSections(text, {"study", "labels", "units", "grid", "grid.scenario"}, open);
     if (!text.has("study")) fail(path, "has no section [study], expected a study file");
     readStudySection(text, study.parameters);
     study.sources = readSources(text);

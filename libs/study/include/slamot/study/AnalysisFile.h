@@ -12,7 +12,7 @@
 namespace slamot::study {
 
 /// `[units]`: what a figure is shown in instead of SI and radians.
-struct Unit {
+struct DisplayUnit {
     std::string name;
     double factor = 1;
 };
@@ -38,12 +38,12 @@ struct TableSpec {
     std::string caption;
 };
 
-enum class PlotKind { over_parameter, over_time, bands };
+enum class PlotKind { over_parameter, against, over_time, bands };
 
 struct PlotSpec {
     std::string name;
     PlotKind kind = PlotKind::over_parameter;
-    std::vector<std::string> figures, series;
+    std::vector<std::string> figures, series;  ///< of `against`: two figures, along x and y
     Shown shown = Shown::mean;
     std::string parameter;  ///< address of the grid
     Selection selection;
@@ -74,7 +74,7 @@ struct CheckSpec {
 
 struct Analysis {
     std::map<std::string, std::string> labels;
-    std::map<std::string, Unit> units;
+    std::map<std::string, DisplayUnit> units;
     std::vector<TableSpec> tables;  ///< these three in the order of the file
     std::vector<PlotSpec> plots;
     std::vector<CheckSpec> checks;
