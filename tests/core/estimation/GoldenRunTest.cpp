@@ -112,8 +112,8 @@ TEST_P(GoldenRun, MatchesTheTrace) {
         for (int i = 0; i < 6; ++i) expectNear(target.mean(i), row[4 + i], at);
         for (int i = 0; i < 3; ++i) expectNear(robot.covariance(i, i), row[10 + i], at);
         for (int i = 0; i < 6; ++i) expectNear(target.covariance(i, i), row[13 + i], at);
-        const JointState& state = filter.state();
-        const BlockMatrix cross = state.covariance(robot_block, 1);  // the target is the first block added
+        const JointBank& state = filter.state();
+        const BlockMatrix cross = state.mode(0).covariance(robot_block, 1);  // the target is the first block added
         expectNear(cross(0, 0), row[19], at);
         expectNear(cross(2, 1), row[20], at);
         EXPECT_EQ(state.dimension(), static_cast<int>(row[21])) << at;

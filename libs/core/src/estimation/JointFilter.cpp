@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
 namespace slamot {
@@ -12,7 +12,7 @@ JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMot
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    state_ = std::make_unique<DenseJointState>(pose.mean.vector(), pose.covariance);
+    bank_ = std::make_unique<DenseJointBank>(pose.mean.vector(), pose.covariance, parameters_.consistency);
     objects_ = {};
 }
 
@@ -27,13 +27,13 @@ TargetModel JointFilter::targetModelAt(Stamp stamp) const {
 }
 
 void JointFilter::predict(const OdometryIncrement& odometry) {
-    const MotionPrediction robot = predictMotion(motion_, state_->mean(robot_block), odometry);
-    state_->propagate(robot_block, robot.pose, robot.F, robot.Q);
+    const MotionPrediction robot = predictMotion(motion_, belief().mean(robot_block), odometry);
+    bank_->mode(0).propagate(robot_block, robot.pose, robot.F, robot.Q);
 
     const TargetModel model = targetModelAt(odometry.t0);
     for (const TrackRecord& track : objects_.tracks()) {
-        const TargetPrediction target = predictTarget(model, state_->mean(track.block), odometry.seconds());
-        state_->propagate(track.block, target.mean, target.F, target.Q);
+        const TargetPrediction target = predictTarget(model, belief().mean(track.block), odometry.seconds());
+        bank_->mode(0).propagate(track.block, target.mean, target.F, target.Q);
     }
     endUnseenTracks(odometry.t1);
 }
@@ -42,7 +42,7 @@ void JointFilter::endUnseenTracks(Stamp now) {
     for (std::size_t i = objects_.tracks().size(); i-- > 0;) {
         const TrackRecord track = objects_.tracks()[i];
         if (secondsBetween(track.last_seen, now) <= parameters_.target_max_unseen) continue;
-        state_->remove(track.block);
+        bank_->remove(track.block);
         objects_.removeTrack(track.id);
     }
 }
@@ -54,7 +54,7 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
     report.innovations.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) report.innovations.push_back(match(set, i));
 
-    state_->update(batch_, parameters_.consistency);
+    bank_->mode(0).update(batch_);
 
     for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
         for (Innovation& innovation : report.innovations)
@@ -90,7 +90,7 @@ Outcome JointFilter::addToBatch(const DetectionSet& set, int index, BlockId bloc
     const RangeBearingSet& seen = set.rangeBearing();
     const RangeBearingDetection& detection = seen.detections[index];
     Linearisation linear =
-        linearise(*state_, block, detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
+        linearise(belief(), block, detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
     innovation.residual = linear.measurement.residual;
     innovation.covariance = linear.S;
     innovation.nis = linear.nis;
@@ -118,9 +118,9 @@ void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
         return;
     }
 
-    const FirstSight sight = firstSight(*state_, detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
+    const FirstSight sight = firstSight(belief(), detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
     if (!mover) {
-        const BlockId block = state_->augment(BlockKind::landmark, sight.position, sight.G, sight.own);
+        const BlockId block = bank_->augment(BlockKind::landmark, {sight.position, sight.G, sight.own});
         innovation.landmark = objects_.addLandmark(block, detection.source, set.stamp).id;
         return;
     }
@@ -133,12 +133,12 @@ void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
     own.topLeftCorner<2, 2>() = sight.own;
     own.diagonal().segment<2>(2).setConstant(std::pow(parameters_.target_velocity_std, 2));
     own.diagonal().segment<2>(4).setConstant(std::pow(parameters_.target_acceleration_std, 2));
-    const BlockId block = state_->augment(BlockKind::target, mean, G, own);
+    const BlockId block = bank_->augment(BlockKind::target, {mean, G, own});
     innovation.track = objects_.addTrack(block, detection.source, set.stamp).id;
 }
 
 PoseGaussian JointFilter::robot() const {
-    return {Pose2::fromVector(state_->mean(robot_block)), state_->covariance(robot_block, robot_block)};
+    return {Pose2::fromVector(belief().mean(robot_block)), belief().covariance(robot_block, robot_block)};
 }
 
 std::vector<TrackEstimate> JointFilter::tracks() const {
@@ -148,16 +148,16 @@ std::vector<TrackEstimate> JointFilter::tracks() const {
         TrackEstimate estimate;
         estimate.id = track.id;
         estimate.source = track.source;
-        estimate.mean = state_->mean(track.block);
-        estimate.covariance = state_->covariance(track.block, track.block);
+        estimate.mean = belief().mean(track.block);
+        estimate.covariance = belief().covariance(track.block, track.block);
         out.push_back(std::move(estimate));
     }
     return out;
 }
 
 LandmarkEstimate JointFilter::estimateOf(const LandmarkRecord& landmark) const {
-    return {landmark.id,   landmark.source,     state_->mean(landmark.block),
-            state_->covariance(landmark.block, landmark.block),
+    return {landmark.id,   landmark.source,     belief().mean(landmark.block),
+            belief().covariance(landmark.block, landmark.block),
             landmark.seen, landmark.first_seen, landmark.last_seen};
 }
 
@@ -185,7 +185,7 @@ JointCovariance JointFilter::jointCovariance() const {
         out.landmarks.push_back(landmark.id);
         blocks.push_back(landmark.block);
     }
-    out.matrix = state_->jointCovariance(blocks);
+    out.matrix = belief().jointCovariance(blocks);
     return out;
 }
 

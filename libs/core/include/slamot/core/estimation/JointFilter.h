@@ -8,7 +8,7 @@
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Odometry.h"
-#include "slamot/core/estimation/JointState.h"
+#include "slamot/core/estimation/JointBank.h"
 #include "slamot/core/estimation/ObjectCatalogue.h"
 #include "slamot/core/models/RobotMotion.h"
 #include "slamot/core/models/TargetMotion.h"
@@ -67,9 +67,10 @@ class JointFilter {
     std::int64_t landmarkCount() const { return static_cast<std::int64_t>(objects_.landmarks().size()); }
     JointCovariance jointCovariance() const;
 
-    const JointState& state() const { return *state_; }
+    const JointBank& state() const { return *bank_; }
 
    private:
+    const JointView& belief() const { return bank_->mode(0); }
     TargetModel targetModelAt(Stamp stamp) const;
     void endUnseenTracks(Stamp now);
     /// Finds the detection's object and, where there is one, puts the linearised detection into the batch.
@@ -80,7 +81,7 @@ class JointFilter {
 
     JointFilterParameters parameters_;
     RobotMotionParameters motion_;
-    std::unique_ptr<JointState> state_;
+    std::unique_ptr<JointBank> bank_;  ///< of one mode
     ObjectCatalogue objects_;
     Stamp start_;
     std::vector<LinearMeasurement> batch_;  ///< kept for its capacity

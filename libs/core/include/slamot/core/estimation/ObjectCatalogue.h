@@ -5,7 +5,7 @@
 
 #include "slamot/core/data/Identities.h"
 #include "slamot/core/data/Stamp.h"
-#include "slamot/core/estimation/JointState.h"
+#include "slamot/core/estimation/Blocks.h"
 
 namespace slamot {
 
