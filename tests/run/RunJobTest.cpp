@@ -24,7 +24,7 @@ const PluginRegistry& registry() {
 
 class RunJobTest : public FolderTest {
   protected:
-    run::RunResult runLog(const std::string& log, const std::string& config,
+    run::JobResult runLog(const std::string& log, const std::string& config,
                           const std::string& out = "out") const {
         run::RunRequest request;
         request.config = Config::fromText(config, "my.ini");

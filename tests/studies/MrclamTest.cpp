@@ -54,7 +54,7 @@ class Mrclam : public testing::Test {
             request.out_folder = (logs / "out").string();
             const Truth truth = readTruth(truthFolderOf(request.log_file));
             request.truth = &truth;
-            const run::RunResult result = run::runLog(request, registry);
+            const run::JobResult result = run::runLog(request, registry);
             const auto& metrics = result.summary["metrics"];
             mean.rmse += metrics["robot"]["position"]["rmse"].get<double>() / 5;
             mean.median_from_robot += metrics["targets"]["seen"]["relative_position"]["median"].get<double>() / 5;

@@ -1,0 +1,105 @@
+#pragma once
+// What a study file asks for, before anything runs: every world, every run in it, their keys and seeds. All of it is
+// a function of the file and the program's version, so that serial, parallel, sharded and resumed studies agree.
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slamot/core/config/Config.h"
+#include "slamot/core/plugin/PluginRegistry.h"
+
+namespace slamot::study {
+
+/// Section `[study]`.
+struct StudyParameters {
+    std::string about;
+    std::uint64_t seed = 1;
+    int replicates = 50;        ///< worlds drawn of each scenario
+    int short_replicates = 10;  ///< of the short form
+    /// A run whose robot position RMSE exceeds this, or that failed, counts as diverged [m].
+    double diverged_above = 10;
+    std::vector<std::string> series;  ///< kept step by step, names of Series.h
+};
+
+/// Section `[scenario.NAME]`: worlds that are simulated.
+struct ScenarioSource {
+    Config scenario;  ///< overrides applied
+    int robot = 0;    ///< the log taken, where there are several
+};
+
+/// Section `[log.NAME]`: recorded logs, each one world.
+struct LogSourceFiles {
+    /// Made by an importer from a folder of SLAMOT_DATASETS, or files beside the study; a pattern (`robot_*.rawlog`).
+    std::string importer, folder, files;
+};
+
+/// Where worlds come from. Exactly one of the two is set.
+struct Source {
+    std::string name;
+    std::optional<ScenarioSource> scenario;
+    std::optional<LogSourceFiles> log;
+};
+
+/// Section `[config.NAME]`: one side of a comparison.
+struct Variant {
+    std::string name;
+    Config config;                ///< overrides applied
+    std::vector<std::string> on;  ///< sources it runs on; empty: all
+};
+
+/// `section.key` and value, in the order of the file: the sections `[grid]` (configs) and `[grid.scenario]`.
+using GridPoint = std::vector<std::pair<std::string, std::string>>;
+
+struct StudyFile {
+    std::string path, name;
+    StudyParameters parameters;
+    std::vector<Source> sources;
+    std::vector<Variant> variants;
+    std::vector<GridPoint> config_grid, scenario_grid;  ///< at least one point, which may be empty
+    Config text;  ///< all sections: tables, figures and checks are read from it by Analysis
+};
+
+/// Reads and checks a study file strictly. Throws ConfigError.
+StudyFile loadStudy(const std::string& path);
+
+/// One run of a study.
+struct RunPlan {
+    std::string key;  ///< SHA-256 of scenario or log name, config, replicate and program version, as hex
+    std::size_t variant = 0, config_point = 0;
+    std::uint64_t estimator_seed = 0;  ///< f(world seed, config)
+    Config config;                     ///< overrides, grid point and seed applied
+};
+
+/// The runs that share one world, which is made once: comparisons are paired by it.
+struct WorldPlan {
+    std::size_t source = 0, scenario_point = 0;
+    int replicate = 1;       ///< counts from 1
+    std::string log_file;    ///< recorded logs only
+    /// f(study seed, source's name, replicate): the same for every config and every point of the grid.
+    std::uint64_t world_seed = 0;
+    std::vector<RunPlan> runs;
+};
+
+struct Plan {
+    StudyFile study;
+    std::vector<WorldPlan> worlds;  ///< replicate by replicate: a longer study begins with the shorter one's worlds
+    /// Sources that cannot run here and why: a dataset that is not there.
+    std::vector<std::string> skipped;
+    std::size_t runCount() const;
+};
+
+struct PlanRequest {
+    bool short_form = false;
+    std::optional<int> replicates;  ///< overrides the file's
+    std::string work_folder;        ///< where importers put their logs
+};
+
+/// Lays out all runs; assembles each config once, so that a mistake in any of them is found before the first run.
+/// Throws ConfigError, PluginError or LogError.
+Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& registry);
+
+}  // namespace slamot::study
