@@ -1,0 +1,124 @@
+#include "slamot/core/estimation/BankedImm.h"
+
+#include "slamot/core/estimation/RangeBearingUpdate.h"
+
+namespace slamot {
+namespace {
+
+/// A mover's modes, each merged over the modes of the others.
+TargetBank bankFrom(const JointImm& exact, std::size_t t, const TargetGaussian& joint) {
+    const BlockId target = exact.targets()[t];
+    const Eigen::VectorXd mu = exact.target(target).mode_probabilities;
+    std::vector<TargetGaussian> modes;
+    for (int j = 0; j < mu.size(); ++j) {
+        Eigen::VectorXd weights = exact.probabilities();
+        for (int i = 0; i < weights.size(); ++i)
+            if (mu(j) > 0 && exact.modeOf(i, t) != j) weights(i) = 0;
+        weights /= weights.sum();
+        const CombinedView mode(exact.bank(), weights);
+        modes.push_back({mode.mean(target), mode.covariance(target, target)});
+    }
+    return {mu, std::move(modes), joint};
+}
+
+}  // namespace
+
+BankedImm::BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact) : ModalState(std::move(settings)) {
+    for (std::size_t t = 0; t < exact.targets().size(); ++t) {
+        const BlockId target = exact.targets()[t];
+        targets_.emplace_back(target,
+                              bankFrom(exact, t, {exact.mean(target), exact.covariance(target, target)}));
+    }
+    joint_ = exact.releaseMerged();
+}
+
+TargetGaussian BankedImm::marginal(BlockId target) const {
+    return {mean(target), covariance(target, target)};
+}
+
+std::size_t BankedImm::indexOf(BlockId target) const {
+    std::size_t t = 0;
+    while (targets_.at(t).first != target) ++t;
+    return t;
+}
+
+void BankedImm::predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) {
+    JointMode& joint = joint_->mode(0);
+    const MotionPrediction robot = predictMotion(settings().motion, joint.mean(robot_block), odometry);
+    joint.propagate(robot_block, robot.pose, robot.F, robot.Q);
+
+    const Eigen::MatrixXd p = settings().chain.over(odometry.seconds());
+    for (auto& [target, bank] : targets_) {
+        const BlockPrediction motion = bank.predict(p, models, odometry.seconds(), joint.mean(target));
+        joint.propagate(target, motion.mean, motion.Phi, motion.Q);
+        bank.takeSnapshot(marginal(target));
+    }
+}
+
+void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known, std::vector<Innovation>& innovations) {
+    joint_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, certain_);
+    updateByLandmarks(seen, known, innovations);
+    for (const auto& sight : known.targets) updateByTarget(seen, sight, innovations[sight.detection]);
+    for (auto& [target, bank] : targets_) bank.synchronise(marginal(target));
+}
+
+void BankedImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
+                                  std::vector<Innovation>& innovations) {
+    batch_.clear();
+    for (const auto& sight : known.landmarks) {
+        const RangeBearingDetection& detection = seen.detections[sight.detection];
+        linear_.assign(1, linearise(joint_->mode(0), sight.block, detection, seen.sensors[detection.sensor].pose,
+                                    joint_->consistency()));
+        Innovation& innovation = innovations[sight.detection];
+        linear_.front().measurement.R += settings().gate.judge(certain_, linear_, detection, innovation);
+        if (innovation.outcome != Outcome::rejected) batch_.push_back(linear_.front().measurement);
+    }
+    joint_->mode(0).update(batch_);
+}
+
+void BankedImm::updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation) {
+    JointMode& joint = joint_->mode(0);
+    TargetBank& bank = targets_[indexOf(sight.block)].second;
+    const RangeBearingDetection& detection = seen.detections[sight.detection];
+    const Pose2& sensor = seen.sensors[detection.sensor].pose;
+    const Consistency consistency = joint_->consistency();
+
+    bank.synchronise(marginal(sight.block));
+    bank.linearise(joint, sight.block, detection, sensor, consistency, linear_);
+    const Matrix2 more_noise = settings().gate.judge(bank.probabilities(), linear_, detection, innovation);
+    if (innovation.outcome == Outcome::rejected) return;
+    for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
+    bank.update(joint, sight.block, linear_, consistency);
+
+    batch_.assign(1, linearise(joint, sight.block, detection, sensor, consistency).measurement);
+    batch_.front().R += more_noise;
+    joint.update(batch_);
+    bank.takeSnapshot(marginal(sight.block));
+    bank.guard(marginal(sight.block));
+}
+
+BlockId BankedImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {
+    return joint_->augment(BlockKind::landmark, newLandmark(detection, sensor));
+}
+
+BlockId BankedImm::addTarget(const RangeBearingDetection& detection, const Pose2& sensor) {
+    const BlockId target = joint_->augment(BlockKind::target, newTarget(detection, sensor));
+    const TargetGaussian now = marginal(target);
+    const Eigen::VectorXd& initial = settings().initial;
+    targets_.emplace_back(
+        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()), now), now));
+    return target;
+}
+
+void BankedImm::removeTarget(BlockId target) {
+    joint_->remove(target);
+    targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(indexOf(target)));
+}
+
+TargetBelief BankedImm::target(BlockId target) const {
+    const TargetBank& bank = targets_[indexOf(target)].second;
+    const TargetGaussian merged = bank.merged();
+    return {merged.mean, merged.covariance, bank.probabilities()};
+}
+
+}  // namespace slamot
