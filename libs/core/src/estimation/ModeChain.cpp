@@ -24,9 +24,10 @@ Eigen::MatrixXd generatorOf(const Eigen::MatrixXd& p, double interval) {
     Eigen::MatrixXd G = log_p.cwiseMax(0.0);
     G.diagonal().setZero();
     G.diagonal() = -G.rowwise().sum();
-    if (!log_p.allFinite() || !(log_p - G).isZero(rounding))
+    // The logarithm of a matrix with a negative eigenvalue is not real, and does not lead back.
+    if (!log_p.allFinite() || !(log_p - G).isZero(rounding) || !(G.exp() - p).isZero(rounding))
         throw std::invalid_argument(
-            "no chain in continuous time has this transition matrix (its logarithm has rates below zero), expected "
+            "no chain in continuous time has this transition matrix (its logarithm is no matrix of rates), expected "
             "larger probabilities to stay, or transition_interval = 0");
     return G / interval;
 }

@@ -51,6 +51,10 @@ Matrix2 symmetricMap(const Matrix2& A, double floor, const Matrix2& B) {
     return inverse_root * onSpectrum(root * B * root, 0.0, [](double l) { return std::sqrt(l); }) * inverse_root;
 }
 
+Matrix6 symmetric(const Matrix6& P) {
+    return 0.5 * (P + P.transpose());
+}
+
 TargetGaussian mixture(const Eigen::Ref<const Eigen::VectorXd>& w, const std::vector<TargetGaussian>& modes) {
     TargetGaussian out{Vector6::Zero(), Matrix6::Zero()};
     for (std::size_t i = 0; i < modes.size(); ++i) out.mean += w(static_cast<Eigen::Index>(i)) * modes[i].mean;
@@ -61,10 +65,11 @@ TargetGaussian mixture(const Eigen::Ref<const Eigen::VectorXd>& w, const std::ve
     return out;
 }
 
-/// Without the negative eigenvalues that rounding leaves.
+/// Without the negative eigenvalues that rounding leaves in a symmetric matrix.
 Matrix6 clipped(const Matrix6& Q) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(0.5 * (Q + Q.transpose()));
-    return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(Q);
+    return symmetric(solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                     solver.eigenvectors().transpose());
 }
 
 }  // namespace
@@ -83,12 +88,16 @@ TargetGaussian TargetBank::merged() const {
     return mixture(mu_, modes_);
 }
 
+void TargetBank::move(const Vector6& from, const Matrix6& L, const Vector6& to) {
+    for (auto& [m, P] : modes_) {
+        m = to + L * (m - from);
+        P = symmetric(L * P * L.transpose());
+    }
+}
+
 void TargetBank::synchronise(const TargetGaussian& joint) {
     const Matrix6 L = covarianceMap(snapshot_.covariance, joint.covariance);
-    for (auto& [m, P] : modes_) {
-        m = joint.mean + L * (m - snapshot_.mean);
-        P = L * P * L.transpose();
-    }
+    move(snapshot_.mean, L, joint.mean);
     snapshot_ = joint;
 }
 
@@ -104,7 +113,7 @@ BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<
         mixed[j] = mixture(given, modes_);
         const TargetPrediction f = predictTarget(models[j], mixed[j].mean, dt);
         A[j] = f.F;
-        predicted[j] = {f.mean, f.F * mixed[j].covariance * f.F.transpose() + f.Q};
+        predicted[j] = {f.mean, symmetric(f.F * mixed[j].covariance * f.F.transpose()) + f.Q};
     }
 
     // The joint state's block follows the merged motion: X is its covariance after with before.
@@ -117,7 +126,7 @@ BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<
     modes_ = std::move(predicted);
     mu_ = c;
     return {after.mean + Phi * (joint_mean - before.mean), Phi,
-            clipped(after.covariance - Phi * before.covariance * Phi.transpose())};
+            clipped(symmetric(after.covariance - Phi * before.covariance * Phi.transpose()))};
 }
 
 void TargetBank::linearise(const JointView& joint, BlockId target, const RangeBearingDetection& detection,
@@ -147,11 +156,7 @@ void TargetBank::guard(const TargetGaussian& joint) {
     const TargetGaussian merged = this->merged();
     const Vector6 e = merged.mean - joint.mean;
     if (e.dot(pseudoInverse(joint.covariance) * e) <= limit) return;
-    const Matrix6 L = covarianceMap(merged.covariance, joint.covariance);
-    for (auto& [m, P] : modes_) {
-        m = joint.mean + L * (m - merged.mean);
-        P = L * P * L.transpose();
-    }
+    move(merged.mean, covarianceMap(merged.covariance, joint.covariance), joint.mean);
 }
 
 }  // namespace slamot

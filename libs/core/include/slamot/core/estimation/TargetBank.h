@@ -47,6 +47,9 @@ class TargetBank {
     TargetGaussian merged() const;
 
   private:
+    /// x <- to + L (x - from) in every mode.
+    void move(const Vector6& from, const Matrix6& L, const Vector6& to);
+
     Eigen::VectorXd mu_;
     std::vector<TargetGaussian> modes_;
     TargetGaussian snapshot_;
