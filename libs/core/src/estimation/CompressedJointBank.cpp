@@ -26,7 +26,8 @@ CompressedJointBank::CompressedJointBank(const CompressedJointBank& other)
       modes_(other.modes_),
       map_(other.map_),
       policy_(other.policy_),
-      commits_(other.commits_) {
+      commits_(other.commits_),
+      activations_(other.activations_) {
     for (Mode& mode : modes_) mode.bank = this;
 }
 
@@ -78,6 +79,7 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
     for (const BlockId id : landmarks)
         if (map_.contains(id)) away.push_back(id);
     if (away.empty()) return;
+    ++activations_;
 
     // c = c0 + B_c^t beta + e_c. P_cr0, the covariance of e_c with what stays, becomes base rows gamma: they have
     // no covariance but the identity with c, and none of their own.

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
 namespace slamot {
@@ -12,7 +11,7 @@ JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMot
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    bank_ = std::make_unique<DenseJointBank>(pose.mean.vector(), pose.covariance, parameters_.consistency);
+    bank_ = makeJointBank(parameters_.engine, pose, parameters_.consistency, 1);
     objects_ = {};
 }
 
@@ -48,6 +47,7 @@ void JointFilter::endUnseenTracks(Stamp now) {
 }
 
 UpdateReport JointFilter::update(const DetectionSet& set) {
+    attend(set);
     UpdateReport report;
     batch_.clear();
     const int count = static_cast<int>(set.rangeBearing().detections.size());
@@ -60,6 +60,18 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
         for (Innovation& innovation : report.innovations)
             if (innovation.outcome == Outcome::initiated && innovation.kind == kind) initiate(set, innovation);
     return report;
+}
+
+void JointFilter::attend(const DetectionSet& set) {
+    measured_.clear();
+    for (const RangeBearingDetection& detection : set.rangeBearing().detections) {
+        if (!detection.source.valid() || detection.kind != ObjectKind::landmark) continue;
+        if (const LandmarkRecord* landmark = objects_.landmarkBySource(detection.source))
+            measured_.push_back(landmark->block);
+    }
+    const Pose2 robot = Pose2::fromVector(belief().mean(robot_block));
+    const Eigen::Matrix<double, 1, 1> sure(1.0);
+    bank_->attend({robot, set.rangeBearing(), measured_}, sure);
 }
 
 Innovation JointFilter::match(const DetectionSet& set, int index) {

@@ -60,7 +60,12 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
     filter.choice("consistency", p.consistency,
                   {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
                   "invariant: covariance transported along updates, second-order range terms; classic: the textbook "
-                  "EKF, which grows over-confident.");
+                  "EKF, which grows over-confident.")
+        .choice("engine", p.engine.kind,
+                {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
+                "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
+                "costs what is near the sensors.");
+    ParameterTable engine = describe(p.engine.active_set, name + ".engine");
 
     ParameterTable outliers(name + ".outliers", "What happens to detections whose innovation is unlikely.");
     outliers
@@ -90,7 +95,7 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
               "Prior of each acceleration component at first sight.")
         .real("max_unseen", p.target_max_unseen, "s", Interval::positiveOrInfinite(),
               "A track not seen for longer ends; inf keeps it.");
-    return {filter, outliers, target};
+    return {filter, engine, outliers, target};
 }
 
 }  // namespace slamot

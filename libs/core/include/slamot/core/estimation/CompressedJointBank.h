@@ -47,6 +47,7 @@ class CompressedJointBank : public JointBank {
     /// Bytes of all modes and of what is put away, work space of the modes left out.
     std::size_t memory() const;
     std::int64_t commits() const { return commits_; }
+    std::int64_t activations() const { return activations_; }
 
   private:
     class Mode : public JointMode {
@@ -79,7 +80,7 @@ class CompressedJointBank : public JointBank {
     std::vector<BlockGaussian> mixed_;  ///< where mixing works
     PassiveMap map_;
     ActiveSetPolicy policy_;
-    std::int64_t commits_ = 0;
+    std::int64_t commits_ = 0, activations_ = 0;
     std::vector<BlockId> leaving_, coming_;  ///< work space
 };
 

@@ -8,7 +8,7 @@
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Odometry.h"
-#include "slamot/core/estimation/JointBank.h"
+#include "slamot/core/estimation/JointEngine.h"
 #include "slamot/core/estimation/ObjectCatalogue.h"
 #include "slamot/core/models/RobotMotion.h"
 #include "slamot/core/models/TargetMotion.h"
@@ -32,6 +32,7 @@ struct ModelChange {
 
 struct JointFilterParameters {
     Consistency consistency = Consistency::invariant;
+    JointEngine engine;
 
     OutlierTreatment outliers = OutlierTreatment::inflate;
     double gate_probability = 0.999;
@@ -45,7 +46,7 @@ struct JointFilterParameters {
     double target_max_unseen = 5.0;        ///< [s]; a track unseen for longer ends
 };
 
-/// Tables of the section `[name]` and its parts `[name.outliers]`, `[name.target]`.
+/// Tables of the section `[name]` and its parts `[name.engine]`, `[name.outliers]`, `[name.target]`.
 std::vector<ParameterTable> describe(JointFilterParameters& parameters, const std::string& name,
                                      const std::string& about);
 
@@ -73,6 +74,8 @@ class JointFilter {
     const JointView& belief() const { return bank_->mode(0); }
     TargetModel targetModelAt(Stamp stamp) const;
     void endUnseenTracks(Stamp now);
+    /// Tells the engine what is about to be measured.
+    void attend(const DetectionSet& set);
     /// Finds the detection's object and, where there is one, puts the linearised detection into the batch.
     Innovation match(const DetectionSet& set, int index);
     Outcome addToBatch(const DetectionSet& set, int index, BlockId block, Innovation& innovation);
@@ -85,6 +88,7 @@ class JointFilter {
     ObjectCatalogue objects_;
     Stamp start_;
     std::vector<LinearMeasurement> batch_;  ///< kept for its capacity
+    std::vector<BlockId> measured_;         ///< the same
 };
 
 }  // namespace slamot
