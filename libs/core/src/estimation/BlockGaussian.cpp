@@ -47,6 +47,14 @@ void BlockGaussian::append(int count) {
     n_ += count;
 }
 
+void BlockGaussian::set(const Eigen::Ref<const Eigen::VectorXd>& mean,
+                        const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
+    n_ = 0;
+    append(static_cast<int>(mean.size()));
+    x_.head(n_) = mean;
+    lower() = covariance;
+}
+
 void BlockGaussian::remove(int offset, int count) {
     const int tail = n_ - offset - count, from = offset + count;
     // Every column moves up, and those behind the gap also to the left: forward copies, so overlap does no harm.

@@ -27,46 +27,53 @@ Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P) {
     return V * inverse.asDiagonal() * V.transpose();
 }
 
-void shareConditional(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,
-                      const Eigen::Ref<const Eigen::VectorXd>& weights, Consistency consistency) {
-    const bool invariant = consistency == Consistency::invariant;
+MatchedModes matchModes(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,
+                        const Eigen::Ref<const Eigen::VectorXd>& weights, Consistency consistency) {
     Eigen::Index r = 0;
     weights.maxCoeff(&r);
-    const BlockGaussian reference = *modes[static_cast<std::size_t>(r)];
+    const BlockGaussian& reference = *modes[static_cast<std::size_t>(r)];
     const int n = reference.dimension();
 
-    // Deviations of the modes' means from the merged one.
-    Eigen::MatrixXd dx(n, static_cast<Eigen::Index>(modes.size()));
+    MatchedModes out;
+    out.deviation.resize(n, static_cast<Eigen::Index>(modes.size()));
     for (std::size_t i = 0; i < modes.size(); ++i)
-        modes[i]->deviationFrom(reference, dx.col(static_cast<Eigen::Index>(i)));
-    const Eigen::VectorXd merged = dx * weights;
-    dx.colwise() -= merged;
+        modes[i]->deviationFrom(reference, out.deviation.col(static_cast<Eigen::Index>(i)));
+    const Eigen::VectorXd merged = out.deviation * weights;
+    out.mean = reference.mean() + merged;
+    out.deviation.colwise() -= merged;
 
-    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
+    out.covariance = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t i = 0; i < modes.size(); ++i) {
-        const auto column = static_cast<Eigen::Index>(i);
-        if (invariant) modes[i]->transport(layout, -dx.col(column));
-        if (weights(column) == 0) continue;
-        P += weights(column) * (modes[i]->lower() + dx.col(column) * dx.col(column).transpose());
+        const auto dx = out.deviation.col(static_cast<Eigen::Index>(i));
+        const double weight = weights(static_cast<Eigen::Index>(i));
+        if (consistency == Consistency::invariant && modes.size() > 1) modes[i]->transport(layout, -dx);
+        if (weight == 0) continue;
+        out.covariance.triangularView<Eigen::Lower>() += weight * modes[i]->lower();
+        if (modes.size() > 1) out.covariance.selfadjointView<Eigen::Lower>().rankUpdate(dx, weight);
     }
-    P.triangularView<Eigen::StrictlyUpper>() = P.transpose();
+    out.covariance.triangularView<Eigen::StrictlyUpper>() = out.covariance.transpose();
+    return out;
+}
 
+void shareConditional(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,
+                      const Eigen::Ref<const Eigen::VectorXd>& weights, Consistency consistency) {
+    const MatchedModes matched = matchModes(layout, modes, weights, consistency);
+    const Eigen::MatrixXd& P = matched.covariance;
     const std::vector<int> a = coordinates(layout, false), b = coordinates(layout, true);
     const Eigen::MatrixXd P_aa = P(a, a), P_bb = P(b, b), A = pseudoInverse(P_aa) * P(a, b);
     for (std::size_t i = 0; i < modes.size(); ++i) {
         BlockGaussian& mode = *modes[i];
-        const auto column = static_cast<Eigen::Index>(i);
         Eigen::MatrixXd P_i = mode.lower().selfadjointView<Eigen::Lower>();
         const Eigen::MatrixXd own = P_i(a, a);
         P_i(a, b) = own * A;
         P_i(b, a) = P_i(a, b).transpose();
         P_i(b, b) = P_bb + A.transpose() * (own - P_aa) * A;
-        mode.lower().triangularView<Eigen::Lower>() = P_i;
 
-        Eigen::VectorXd moved = dx.col(column);
+        Eigen::VectorXd x = mode.mean(), moved = matched.deviation.col(static_cast<Eigen::Index>(i));
         moved(b) = A.transpose() * moved(a);
-        for (const int k : b) mode.mean()(k) = reference.mean()(k) + merged(k) + moved(k);
-        if (invariant) mode.transport(layout, moved);
+        x(b) = matched.mean(b) + moved(b);
+        mode.set(x, P_i);
+        if (consistency == Consistency::invariant) mode.transport(layout, moved);
     }
 }
 

@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/JointFilter.h"
 
 #include "slamot/core/estimation/BankedImm.h"
-#include "slamot/core/estimation/DenseJointBank.h"
 
 namespace slamot {
 namespace {
@@ -25,9 +24,8 @@ JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMot
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    auto bank = std::make_unique<DenseJointBank>(pose.mean.vector(), pose.covariance, parameters_.consistency);
-    auto exact = std::make_unique<JointImm>(settings_, std::move(bank));
-    belief_ = std::move(exact);
+    belief_ = std::make_unique<JointImm>(settings_,
+                                         makeJointBank(parameters_.engine, pose, parameters_.consistency, 1));
     if (parameters_.imm.form == ImmForm::scalable) becomeScalable();
     objects_ = {};
 }

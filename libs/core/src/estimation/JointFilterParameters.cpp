@@ -45,10 +45,15 @@ std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text
 
 ParameterTable filterTable(JointFilterParameters& p, const std::string& name, const std::string& about) {
     ParameterTable filter(name, about);
-    filter.choice("consistency", p.consistency,
+    filter
+        .choice("consistency", p.consistency,
                   {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
                   "invariant: covariance transported along updates, second-order range terms; classic: the textbook "
-                  "EKF, which grows over-confident.");
+                  "EKF, which grows over-confident.")
+        .choice("engine", p.engine.kind,
+                {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
+                "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
+                "costs what is near the sensors.");
     return filter;
 }
 
@@ -90,7 +95,7 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
                    },
                    [&p] { return scheduleText(p.target_schedule); }});
     describeLife(p, target);
-    return {filterTable(p, name, about), outlierTable(p, name), target};
+    return {filterTable(p, name, about), describe(p.engine.active_set, name + ".engine"), outlierTable(p, name), target};
 }
 
 std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name, const std::string& about) {
@@ -110,7 +115,7 @@ std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::str
     describe(p.imm, modes);
     ParameterTable target(name + ".target", "Life of tracks.");
     describeLife(p, target);
-    return {filter, outlierTable(p, name), modes, target};
+    return {filter, describe(p.engine.active_set, name + ".engine"), outlierTable(p, name), modes, target};
 }
 
 }  // namespace slamot

@@ -23,6 +23,8 @@ class BlockGaussian {
     /// Columns [first, first + out.cols()) of the symmetric matrix, whole.
     void gatherColumns(int first, Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> out) const;
 
+    /// Takes over mean and covariance (its lower triangle).
+    void set(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& covariance);
     /// `count` more coordinates at the end, with zero mean and covariance.
     void append(int count);
     void remove(int offset, int count);

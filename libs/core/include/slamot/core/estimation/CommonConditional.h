@@ -10,6 +10,18 @@ namespace slamot {
 /// Pseudo-inverse of a positive semi-definite matrix; exactly known components count as known.
 Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P);
 
+/// Several modes seen as one.
+struct MatchedModes {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+    Eigen::MatrixXd deviation;  ///< of the modes' means from the common one, by column
+};
+
+/// Moment-matches all modes at their merged mean. In the invariant core each mode's covariance is transported there,
+/// and stays so.
+MatchedModes matchModes(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,
+                        const Eigen::Ref<const Eigen::VectorXd>& weights, Consistency consistency);
+
 /// Moment-matches all modes at their merged mean; then b given a is the merged distribution's in every mode, while
 /// a keeps each mode's own mean and covariance. b are the blocks the layout says are put away.
 void shareConditional(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,

@@ -9,6 +9,7 @@
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Odometry.h"
+#include "slamot/core/estimation/JointEngine.h"
 #include "slamot/core/estimation/ModalState.h"
 #include "slamot/core/estimation/ObjectCatalogue.h"
 
@@ -24,6 +25,7 @@ struct ModelChange {
 
 struct JointFilterParameters {
     Consistency consistency = Consistency::invariant;
+    JointEngine engine;
 
     OutlierTreatment outliers = OutlierTreatment::inflate;
     double gate_probability = 0.999;
@@ -40,7 +42,7 @@ struct JointFilterParameters {
     ImmParameters imm;
 };
 
-/// Tables of the section `[name]` and its parts `[name.outliers]`, `[name.target]`.
+/// Tables of the section `[name]` and its parts `[name.engine]`, `[name.outliers]`, `[name.target]`.
 std::vector<ParameterTable> describe(JointFilterParameters& parameters, const std::string& name,
                                      const std::string& about);
 /// The same for a filter of several modes, with `[name.modes]`.
