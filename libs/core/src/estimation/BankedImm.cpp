@@ -6,7 +6,7 @@ namespace slamot {
 namespace {
 
 /// A mover's modes, each merged over the modes of the others.
-TargetBank bankFrom(const JointImm& exact, std::size_t t, const TargetGaussian& joint) {
+TargetBank bankFrom(const JointImm& exact, std::size_t t) {
     const BlockId target = exact.targets()[t];
     const Eigen::VectorXd mu = exact.target(target).mode_probabilities;
     std::vector<TargetGaussian> modes;
@@ -18,17 +18,16 @@ TargetBank bankFrom(const JointImm& exact, std::size_t t, const TargetGaussian& 
         const CombinedView mode(exact.bank(), weights);
         modes.push_back({mode.mean(target), mode.covariance(target, target)});
     }
-    return {mu, std::move(modes), joint};
+    TargetBank bank(mu, std::move(modes));
+    bank.synchronise({exact.mean(target), exact.covariance(target, target)});
+    return bank;
 }
 
 }  // namespace
 
 BankedImm::BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact) : ModalState(std::move(settings)) {
-    for (std::size_t t = 0; t < exact.targets().size(); ++t) {
-        const BlockId target = exact.targets()[t];
-        targets_.emplace_back(target,
-                              bankFrom(exact, t, {exact.mean(target), exact.covariance(target, target)}));
-    }
+    for (std::size_t t = 0; t < exact.targets().size(); ++t)
+        targets_.emplace_back(exact.targets()[t], bankFrom(exact, t));
     joint_ = exact.releaseMerged();
 }
 
@@ -103,10 +102,9 @@ BlockId BankedImm::addLandmark(const RangeBearingDetection& detection, const Pos
 
 BlockId BankedImm::addTarget(const RangeBearingDetection& detection, const Pose2& sensor) {
     const BlockId target = joint_->augment(BlockKind::target, newTarget(detection, sensor));
-    const TargetGaussian now = marginal(target);
     const Eigen::VectorXd& initial = settings().initial;
     targets_.emplace_back(
-        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()), now), now));
+        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()), marginal(target))));
     return target;
 }
 

@@ -15,7 +15,7 @@ constexpr double rounding = 1e-9;
 void requireProbabilities(const Eigen::VectorXd& p, const std::string& what) {
     if (!(p.minCoeff() >= 0) || !(std::abs(p.sum() - 1.0) <= rounding))
         throw std::invalid_argument(
-            fmt::format("{} sums to {}, expected probabilities that sum to 1", what, shortestText(p.sum())));
+            fmt::format("{} sums to {:.9g}, expected probabilities that sum to 1", what, p.sum()));
 }
 
 /// G with exp(G interval) = p, whose rows sum to 0 and whose entries beside the diagonal are rates >= 0.

@@ -81,8 +81,8 @@ Matrix6 covarianceMap(const Matrix6& from, const Matrix6& to) {
     return b.U * T * a.U.triangularView<Eigen::UnitLower>().solve(Matrix6::Identity());
 }
 
-TargetBank::TargetBank(const Eigen::VectorXd& mu, std::vector<TargetGaussian> modes, const TargetGaussian& joint)
-    : mu_(mu), modes_(std::move(modes)), snapshot_(joint) {}
+TargetBank::TargetBank(const Eigen::VectorXd& mu, std::vector<TargetGaussian> modes)
+    : mu_(mu), modes_(std::move(modes)), snapshot_(merged()) {}
 
 TargetGaussian TargetBank::merged() const {
     return mixture(mu_, modes_);

@@ -24,8 +24,8 @@ Matrix6 covarianceMap(const Matrix6& from, const Matrix6& to);
 
 class TargetBank {
   public:
-    /// Modes of probability mu, given the mode each its Gaussian; `joint` is the joint state's marginal.
-    TargetBank(const Eigen::VectorXd& mu, std::vector<TargetGaussian> modes, const TargetGaussian& joint);
+    /// Modes of probability mu, each with its Gaussian; the snapshot is of what they make together.
+    TargetBank(const Eigen::VectorXd& mu, std::vector<TargetGaussian> modes);
 
     /// Step 1: what else has moved the joint state's block since the snapshot moves every mode alike.
     void synchronise(const TargetGaussian& joint);
