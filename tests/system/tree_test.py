@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "run": {"core", "rawlog", "sim", "eval"},
     "report": {"core", "rawlog", "sim", "eval", "run"},
     "study": {"core", "rawlog", "sim", "eval", "run", "report"},
+    "study": {"core", "rawlog", "sim", "eval", "run", "report"},
 }
 # Estimation itself: Eigen and the standard library only.
 WITHOUT_MRPT = ["models", "estimation", "association"]

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "slamot/study/Plan.h"
 
@@ -20,9 +19,14 @@ struct Series {
 /// What depends on machine and moment, and so is no part of a row's identity.
 struct Cost {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    /// Of running and evaluating; of making the world (simulating it, or reading its truth), its part of what
+    /// the runs made from it share.
     double wall_s = none, simulate_s = none;
-    double step_ms_mean = none, step_ms_p50 = none, step_ms_p99 = none, step_ms_max = none;  ///< estimator's work
-    /// Most memory the run took beyond what was there before it; NaN where runs share the process in parallel.
+    double cpu_s = none;  ///< of the thread that ran it
+    double step_ms_mean = none, step_ms_p50 = none, step_ms_p99 = none,
+           step_ms_max = none;  ///< estimator's work
+    /// Most memory the run took beyond what was there before it; NaN where runs share the process in
+    /// parallel.
     double memory_mb = none;
     std::string host;
 };
@@ -34,16 +38,18 @@ struct Row {
     std::uint64_t world_seed = 0, estimator_seed = 0;
     std::string status, reason;  ///< RunStatus in words, `failed` with its sentence
     std::string estimate_hash;
-    /// summary.json's metrics, nested names joined by dots: robot.position.rmse. Numbers that exist only.
+    /// summary.json's metrics and counts, nested names joined by dots: robot.position.rmse,
+    /// nis.<sensor>.<kind>.inside, counts.landmarks. Numbers that exist only.
     std::map<std::string, double> metrics;
     std::map<std::string, Series> series;
     Cost cost;
+    std::string build;  ///< RunPlan's: what computed it; no part of its identity either
 };
 
 /// A figure of a row: a metric's name, or `cost.<field>`. NaN where the row has none.
 double figureOf(const Row& row, const std::string& name);
 
-/// All but the cost: what must agree whatever the row was computed by, with every bit of its numbers.
+/// All but cost and build: what must agree whatever the row was computed by, with every bit of its numbers.
 std::string identity(const Row& row);
 
 nlohmann::json toJson(const Row& row);

@@ -11,31 +11,36 @@
 
 namespace slamot::study {
 
-/// Simulates or reads the world once and runs what of it is not in `done`. A run that throws is a row with its
-/// reason. Safe to call from several threads at once. Rows come in the world's order; fewer when stopped.
-struct WorldOptions {
+/// Shard k of K, k from 1, takes every K-th replicate of each scenario and point: shares of equal work.
+struct Shard {
+    int number = 1, count = 1;
+    bool has(const WorldPlan& world) const;
+};
+
+/// What is handed out as a whole: a world and those of its runs that are wanted.
+struct Unit {
+    std::size_t world = 0;          ///< index of Plan::worlds
+    std::vector<std::size_t> runs;  ///< indices of WorldPlan::runs
+};
+
+/// The shard's runs that are not in `done`, in the plan's order. A simulated world is one unit, since it is
+/// made once; the runs of a recorded log are units of their own, since there are few such worlds and reading
+/// is cheap.
+std::vector<Unit> unitsOf(const Plan& plan, const std::set<std::string>& done, const Shard& shard);
+
+struct UnitOptions {
     const std::atomic<bool>* stop = nullptr;
     bool measure_memory = false;  ///< only where nothing else runs in the process
     std::string keep_folder;      ///< each run's complete output folder below it; empty: no files
 };
-std::vector<Row> runWorld(const Plan& plan, const WorldPlan& world, const std::set<std::string>& done,
-                          const PluginRegistry& registry, const WorldOptions& options);
 
-/// Shard k of K takes every K-th world, k from 1.
-struct Shard {
-    int number = 1, count = 1;
-    bool has(std::size_t world) const { return static_cast<int>(world % static_cast<std::size_t>(count)) == number - 1; }
-};
+/// Simulates or reads the world once and runs what the unit has of it. A run that throws is a row with its
+/// reason. Safe to call from several threads at once. Rows come in the unit's order; fewer when stopped.
+std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry,
+                         const UnitOptions& options);
 
 struct StudyProgress {
     std::size_t done = 0, total = 0, failed = 0;  ///< runs; those of earlier sessions are not counted
-};
-
-struct RunnerOptions {
-    Shard shard;
-    int threads = 1;
-    WorldOptions world;
-    std::function<void(const StudyProgress&)> progress;
 };
 
 /// Time of a whole study against that of the runs it drove: the engine's overhead.
@@ -43,8 +48,30 @@ struct StudyTimes {
     double wall_s = 0, runs_s = 0;  ///< `runs_s`: sum over runs of simulating, running and evaluating
 };
 
-/// Runs the shard's missing runs, on oneTBB where `threads` > 1, and hands each row to `take`, one at a time.
-StudyTimes runStudy(const Plan& plan, const std::set<std::string>& done, const PluginRegistry& registry,
+/// Takes the rows of a session, counts them and tells the progress.
+class RowCounter {
+  public:
+    RowCounter(const std::vector<Unit>& units, std::function<void(const StudyProgress&)> tell,
+               std::function<void(const Row&)> take);
+    void operator()(const std::vector<Row>& rows);
+    const StudyProgress& progress() const { return progress_; }
+    double runsSeconds() const { return runs_s_; }
+
+  private:
+    StudyProgress progress_;
+    double runs_s_ = 0;
+    std::function<void(const StudyProgress&)> tell_;
+    std::function<void(const Row&)> take_;
+};
+
+struct RunnerOptions {
+    int threads = 1;
+    UnitOptions unit;
+    std::function<void(const StudyProgress&)> progress;
+};
+
+/// Runs the units, on oneTBB where `threads` > 1, and hands each row to `take`, one at a time.
+StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const PluginRegistry& registry,
                     const RunnerOptions& options, const std::function<void(const Row&)>& take);
 
 }  // namespace slamot::study
