@@ -69,6 +69,13 @@ conformance::Options scalable() {
     return options;
 }
 
+conformance::Options compressed() {
+    conformance::Options options;
+    options.plugin = "imm_slamot";
+    options.config = "[imm_slamot]\nengine = compressed\n";
+    return options;
+}
+
 conformance::Options threeModes() {
     conformance::Options options;
     options.plugin = "imm_slamot";
@@ -84,4 +91,5 @@ conformance::Options threeModes() {
 SLAMOT_CONFORMANCE_SUITE(imm_slamot, slamot::conformance::Options{});
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_classic, slamot::classic());
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_scalable, slamot::scalable());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_compressed, slamot::compressed());
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_three_modes, slamot::threeModes());
