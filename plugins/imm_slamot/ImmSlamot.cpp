@@ -23,9 +23,9 @@ std::vector<std::string> ImmSlamot::modeNames() const {
 
 std::vector<ParameterTable> ImmSlamot::onParameters() {
     std::vector<ParameterTable> tables{describe(motion_)};
-    for (ParameterTable& table :
-         describeImm(parameters_, "imm_slamot",
-                     "Interacting multiple model filter over robot, movers and landmarks (paper 1, section 2.3)."))
+    for (ParameterTable& table : describeImm(
+             parameters_, "imm_slamot",
+             "Interacting multiple model filter over robot, movers and landmarks (paper 1, section 2.3)."))
         tables.push_back(std::move(table));
     return tables;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// The IMM on the joint state as the textbook writes it: full matrices D, H and P for every combination of modes,
-// densities by inverse and determinant, Jacobians by automatic differentiation. What JointImm is held to.
+// The IMM on the joint state as the textbook writes it: full matrices D, H and P for every combination of
+// modes, densities by inverse and determinant, Jacobians by automatic differentiation. What JointImm is held
+// to.
 #include <Eigen/Dense>
 #include <cmath>
 #include <map>
@@ -78,8 +79,10 @@ class FullMatrixImm {
         for (auto& [combination, mode] : modes_) mode.first /= sum;
     }
 
-    void add(int id, int size, const RangeBearingDetection& detection, double velocity_std, double acceleration_std) {
-        for (auto& [combination, mode] : modes_) augment(mode.second, size, detection, velocity_std, acceleration_std);
+    void add(int id, int size, const RangeBearingDetection& detection, double velocity_std,
+             double acceleration_std) {
+        for (auto& [combination, mode] : modes_)
+            augment(mode.second, size, detection, velocity_std, acceleration_std);
         objects_.push_back({id, size});
         if (size != 6) return;
         std::map<Combination, std::pair<double, Gaussian>> split;
@@ -168,7 +171,8 @@ class FullMatrixImm {
         Eigen::MatrixXd P = Eigen::MatrixXd::Zero(x_r.size(), x_r.size());
         for (const auto& [w, g] : parts) {
             const Eigen::VectorXd dx = difference(g.x);
-            const Eigen::MatrixXd T = invariant_ ? D(-dx) : Eigen::MatrixXd(Eigen::MatrixXd::Identity(P.rows(), P.rows()));
+            const Eigen::MatrixXd T =
+                invariant_ ? D(-dx) : Eigen::MatrixXd(Eigen::MatrixXd::Identity(P.rows(), P.rows()));
             P += w * (T * g.P * T.transpose() + (dx - mean) * (dx - mean).transpose());
         }
         if (invariant_) P = D(mean) * P * D(mean).transpose();
@@ -226,8 +230,10 @@ class FullMatrixImm {
         if (invariant_) g.P = D(dx) * g.P * D(dx).transpose();
         const Eigen::Index rows = m - landmark_rows;
         if (rows == 0) return 1;
-        if (imm_.likelihood == ModeLikelihood::marginal) return density(nu.tail(rows), S.bottomRightCorner(rows, rows));
-        return density(nu, S) / density(nu.head(landmark_rows), S.topLeftCorner(landmark_rows, landmark_rows));
+        if (imm_.likelihood == ModeLikelihood::marginal)
+            return density(nu.tail(rows), S.bottomRightCorner(rows, rows));
+        return density(nu, S) /
+               density(nu.head(landmark_rows), S.topLeftCorner(landmark_rows, landmark_rows));
     }
 
     void augment(Gaussian& g, int size, const RangeBearingDetection& detection, double velocity_std,

@@ -1,5 +1,5 @@
-// Paper 1's scenario against the traces of an independent implementation (tests/data/golden/paper1/README.md): fed
-// with doubles, every printed number agrees to 1e-6.
+// Paper 1's scenario against the traces of an independent implementation
+// (tests/data/golden/paper1/README.md): fed with doubles, every printed number agrees to 1e-6.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,7 +108,8 @@ void expectNear(double value, double expected, const std::string& what) {
 /// Feeds the inputs and compares every step; `more` compares what the trace has besides the EKF's columns.
 template <class More>
 void expectTrace(JointFilter& filter, const std::string& trace, const More& more) {
-    const auto truth = readCsv("truth.csv"), observations = readCsv("observations.csv"), expected = readCsv(trace);
+    const auto truth = readCsv("truth.csv"), observations = readCsv("observations.csv"),
+               expected = readCsv(trace);
     ASSERT_EQ(expected.size(), 201u);
     filter.start(stampOf(0), {});
     for (int k = 0; k <= 200; ++k) {
@@ -178,7 +179,8 @@ TEST(GoldenImm, MatchesTheTraceWhateverTheOrderOfTheModes) {
                     [&](const Row& row, const TrackEstimate& target, const std::string& at) {
                         ASSERT_EQ(target.mode_probabilities.size(), 2u);
                         expectNear(target.mode_probabilities[order[0] == cv ? 0 : 1], row[22], at);
-                        EXPECT_NEAR(target.mode_probabilities[0] + target.mode_probabilities[1], 1, 1e-12) << at;
+                        EXPECT_NEAR(target.mode_probabilities[0] + target.mode_probabilities[1], 1, 1e-12)
+                            << at;
                     });
         if (HasFailure()) break;
     }

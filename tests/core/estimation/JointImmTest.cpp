@@ -16,16 +16,16 @@ namespace slamot {
 namespace {
 
 using test::FullMatrixImm;
-using test::ImmScene;
 using test::immModes;
+using test::ImmScene;
 using test::near;
 
 using Case = std::tuple<Consistency, ModeLikelihood, std::string>;
 class JointImmReference : public testing::TestWithParam<Case> {};
 
 TEST_P(JointImmReference, AgreesWithFullMatricesWhileTargetsComeAndGo) {
-    // Both do the same sums in another order; 60 steps of rounding stay far below 1e-9, and any term left out shows
-    // above it.
+    // Both do the same sums in another order; 60 steps of rounding stay far below 1e-9, and any term left out
+    // shows above it.
     const auto& [consistency, likelihood, modes] = GetParam();
     JointFilterParameters parameters;
     parameters.consistency = consistency;
@@ -49,7 +49,9 @@ TEST_P(JointImmReference, AgreesWithFullMatricesWhileTargetsComeAndGo) {
         reference.predict(motion, step.odometry);
         for (const TrackEstimate& track : before) {
             const auto live = filter.tracks();
-            if (std::any_of(live.begin(), live.end(), [&](const TrackEstimate& t) { return t.id == track.id; })) continue;
+            if (std::any_of(live.begin(), live.end(),
+                            [&](const TrackEstimate& t) { return t.id == track.id; }))
+                continue;
             reference.remove(1000 + static_cast<int>(track.source.value));
             ++ended;
         }
@@ -63,9 +65,11 @@ TEST_P(JointImmReference, AgreesWithFullMatricesWhileTargetsComeAndGo) {
             }
         reference.update(known);
         std::reverse(fresh.begin(), fresh.end());  // movers first
-        std::stable_sort(fresh.begin(), fresh.end(), [](const auto& a, const auto& b) { return a.first >= 1000 && b.first < 1000; });
+        std::stable_sort(fresh.begin(), fresh.end(),
+                         [](const auto& a, const auto& b) { return a.first >= 1000 && b.first < 1000; });
         for (const auto& [id, d] : fresh)
-            reference.add(id, id >= 1000 ? 6 : 2, d, parameters.target_velocity_std, parameters.target_acceleration_std);
+            reference.add(id, id >= 1000 ? 6 : 2, d, parameters.target_velocity_std,
+                          parameters.target_acceleration_std);
 
         const FullMatrixImm::Gaussian all = reference.combined();
         const std::string at = "step " + std::to_string(k);
@@ -100,11 +104,12 @@ std::string caseName(const testing::TestParamInfo<Case>& test) {
            (modes.find("left") == std::string::npos ? "_two" : "_three");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, JointImmReference,
-                         testing::Combine(testing::Values(Consistency::classic, Consistency::invariant),
-                                          testing::Values(ModeLikelihood::conditional, ModeLikelihood::marginal),
-                                          testing::Values("cv:cv:0.3, ca:ca:2", "cv:cv:0.3, left:ct:0.3:40, ca:ca:2")),
-                         caseName);
+INSTANTIATE_TEST_SUITE_P(
+    All, JointImmReference,
+    testing::Combine(testing::Values(Consistency::classic, Consistency::invariant),
+                     testing::Values(ModeLikelihood::conditional, ModeLikelihood::marginal),
+                     testing::Values("cv:cv:0.3, ca:ca:2", "cv:cv:0.3, left:ct:0.3:40, ca:ca:2")),
+    caseName);
 
 /// A scene played to several filters; compares all they say after each step.
 void expectSame(const JointFilterParameters& a, const JointFilterParameters& b, double tolerance) {
@@ -121,7 +126,8 @@ void expectSame(const JointFilterParameters& a, const JointFilterParameters& b, 
         ASSERT_TRUE(near(one.jointCovariance().matrix, other.jointCovariance().matrix, tolerance)) << k;
         const auto tracks = one.tracks(), others = other.tracks();
         ASSERT_EQ(tracks.size(), others.size());
-        for (std::size_t t = 0; t < tracks.size(); ++t) ASSERT_TRUE(near(tracks[t].mean, others[t].mean, tolerance)) << k;
+        for (std::size_t t = 0; t < tracks.size(); ++t)
+            ASSERT_TRUE(near(tracks[t].mean, others[t].mean, tolerance)) << k;
     }
 }
 
@@ -152,7 +158,8 @@ TEST_P(JointImmCores, EqualModesAreTheEkf) {
 }
 
 TEST_P(JointImmCores, TheOrderOfModesChangesNothing) {
-    JointFilterParameters plain = imm("cv:cv:0.3, left:ct:0.3:40, ca:ca:2"), turned = imm("ca:ca:2, cv:cv:0.3, left:ct:0.3:40");
+    JointFilterParameters plain = imm("cv:cv:0.3, left:ct:0.3:40, ca:ca:2"),
+                          turned = imm("ca:ca:2, cv:cv:0.3, left:ct:0.3:40");
     // Not symmetric, so that a transposed matrix shows.
     plain.imm.transition = {{0.8, 0.15, 0.05, 0.3, 0.6, 0.1, 0.2, 0.2, 0.6}};
     turned.imm.transition = {{0.6, 0.2, 0.2, 0.05, 0.8, 0.15, 0.1, 0.3, 0.6}};
@@ -171,7 +178,8 @@ TEST_P(JointImmCores, TheOrderOfModesChangesNothing) {
         for (std::size_t t = 0; t < tracks.size(); ++t) {
             ASSERT_TRUE(near(tracks[t].mean, others[t].mean, 1e-10)) << k;
             for (int j = 0; j < 3; ++j)
-                ASSERT_NEAR(tracks[t].mode_probabilities[j], others[t].mode_probabilities[(j + 1) % 3], 1e-10) << k;
+                ASSERT_NEAR(tracks[t].mode_probabilities[j], others[t].mode_probabilities[(j + 1) % 3], 1e-10)
+                    << k;
         }
     }
 }
@@ -183,7 +191,8 @@ TEST_P(JointImmCores, WithoutASightTheChainAloneMovesProbabilities) {
     parameters.imm.initial = {{0.2, 0.8}};
     JointFilter filter(parameters, {});
     filter.start({}, {});
-    filter.update(test::detectionsAt(0, {test::seen({}, {5, 1}, ObjectKind::mover, 0), test::seen({}, {3, 4}, ObjectKind::landmark, 0)}));
+    filter.update(test::detectionsAt(
+        0, {test::seen({}, {5, 1}, ObjectKind::mover, 0), test::seen({}, {3, 4}, ObjectKind::landmark, 0)}));
     filter.predict(test::odometry(0, 0.1, {0.1, 0, 0}));
     // mu = c: 0.2 * 0.9 + 0.8 * 0.4 = 0.5; a look at a landmark says nothing of modes.
     filter.update(test::detectionsAt(0.1, {test::seen({0.1, 0, 0}, {3, 4}, ObjectKind::landmark, 0)}));
@@ -193,7 +202,9 @@ TEST_P(JointImmCores, WithoutASightTheChainAloneMovesProbabilities) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, JointImmCores, testing::Values(Consistency::classic, Consistency::invariant),
-                         [](const auto& each) { return each.param == Consistency::classic ? "classic" : "invariant"; });
+                         [](const auto& each) {
+                             return each.param == Consistency::classic ? "classic" : "invariant";
+                         });
 
 TEST(JointImmTest, AManoeuvreIsNoOutlier) {
     // The mover stops at once: far out for cv alone, within reach of ca. Nothing is inflated, ca takes over.

@@ -47,8 +47,10 @@ TEST(ModeChainTest, RefusesWhatIsNoChain) {
     const auto refusal = [](const Eigen::MatrixXd& p, double interval) {
         return messageOf<std::invalid_argument>([&] { ModeChain(p, interval); });
     };
-    EXPECT_NE(refusal((Eigen::Matrix2d() << 0.9, 0.1, 0.2, 0.9).finished(), 0).find("row 2"), std::string::npos);
-    EXPECT_NE(refusal((Eigen::Matrix2d() << 1.1, -0.1, 0.2, 0.8).finished(), 0).find("row 1"), std::string::npos);
+    EXPECT_NE(refusal((Eigen::Matrix2d() << 0.9, 0.1, 0.2, 0.9).finished(), 0).find("row 2"),
+              std::string::npos);
+    EXPECT_NE(refusal((Eigen::Matrix2d() << 1.1, -0.1, 0.2, 0.8).finished(), 0).find("row 1"),
+              std::string::npos);
     // A negative eigenvalue, a zero one, and a mode reached only through another in less than no time.
     const auto in_time = [&](const Eigen::MatrixXd& p) {
         EXPECT_NO_THROW(ModeChain(p, 0));
@@ -68,7 +70,8 @@ TEST(ModeChainTest, NumbersMustFitTheModes) {
     imm.transition = {{0.9, 0.1, 0.2, 0.8}};
     EXPECT_TRUE(near(chainOf(imm).over(0.15), (Eigen::Matrix2d() << 0.9, 0.1, 0.2, 0.8).finished(), 1e-12));
     imm.initial = {{0.3, 0.6}};
-    EXPECT_NE(messageOf<std::invalid_argument>([&] { initialProbabilities(imm); }).find("0.9"), std::string::npos);
+    EXPECT_NE(messageOf<std::invalid_argument>([&] { initialProbabilities(imm); }).find("0.9"),
+              std::string::npos);
 }
 
 TEST(ImmParametersTest, ModesAreReadAndWritten) {
@@ -91,7 +94,8 @@ TEST(ImmParametersTest, ModesAreReadAndWritten) {
     EXPECT_EQ(transition.print(), "auto");
     EXPECT_FALSE(transition.parse("0.9, 0.1, 0.2, 0.8"));
     EXPECT_EQ(transition.print(), "0.9, 0.1, 0.2, 0.8");
-    for (const char* bad : {"", "0.9 0.1", "0.9,", "1.1", "-0.1", "x"}) EXPECT_TRUE(transition.parse(bad)) << bad;
+    for (const char* bad : {"", "0.9 0.1", "0.9,", "1.1", "-0.1", "x"})
+        EXPECT_TRUE(transition.parse(bad)) << bad;
     EXPECT_FALSE(transition.parse("auto"));
     EXPECT_FALSE(imm.transition);
 }

@@ -15,8 +15,8 @@
 namespace slamot {
 namespace {
 
-using test::ImmScene;
 using test::immModes;
+using test::ImmScene;
 using test::near;
 using test::randomCovariance;
 using test::randomVector;
@@ -36,8 +36,10 @@ TEST(CovarianceMapTest, MapsTurnsAndScales) {
         EXPECT_TRUE(near(L * from * L.transpose(), to, 1e-11));
         EXPECT_TRUE(near(covarianceMap(from, from), Matrix6::Identity(), 1e-11));
         const Matrix6 R = turnOf(0.7 * i);
-        EXPECT_TRUE(near(covarianceMap(R * from * R.transpose(), R * to * R.transpose()), R * L * R.transpose(), 1e-10));
-        EXPECT_TRUE(near(covarianceMap(units * from * units, units * to * units), units * L * units.inverse(), 1e-10));
+        EXPECT_TRUE(near(covarianceMap(R * from * R.transpose(), R * to * R.transpose()),
+                         R * L * R.transpose(), 1e-10));
+        EXPECT_TRUE(near(covarianceMap(units * from * units, units * to * units), units * L * units.inverse(),
+                         1e-10));
     }
 }
 
@@ -97,9 +99,9 @@ TEST_F(BankTest, SynchronisingTakesOverTheJointMarginal) {
 }
 
 TEST_F(BankTest, PredictionMovesTheJointBlockToTheMergedMoments) {
-    // Mixing keeps the merged moments, and prediction is linear: by the law of total covariance the block that
-    // follows x <- mean, P <- Phi P Phi^t + Q must have what the bank then has, and Phi P the covariance of after
-    // with before, here by summing over the mixed modes.
+    // Mixing keeps the merged moments, and prediction is linear: by the law of total covariance the block
+    // that follows x <- mean, P <- Phi P Phi^t + Q must have what the bank then has, and Phi P the covariance
+    // of after with before, here by summing over the mixed modes.
     const std::vector<TargetModel> models{{TargetModelKind::cv, 0.4, 0.1}, {TargetModelKind::ca, 2.0, 0.1}};
     const Eigen::Matrix2d p = (Eigen::Matrix2d() << 0.9, 0.1, 0.2, 0.8).finished();
     TargetBank bank = this->bank();
@@ -128,7 +130,8 @@ TEST_F(BankTest, PredictionMovesTheJointBlockToTheMergedMoments) {
     // A joint mean apart from the bank's stays apart, as Phi carries it.
     TargetBank apart = this->bank();
     const Vector6 shift = 0.1 * randomVector(random_, 6);
-    EXPECT_TRUE(near(apart.predict(p, models, 0.3, before.mean + shift).mean, after.mean + f.Phi * shift, 1e-12));
+    EXPECT_TRUE(
+        near(apart.predict(p, models, 0.3, before.mean + shift).mean, after.mean + f.Phi * shift, 1e-12));
 }
 
 TEST_F(BankTest, EqualModesMeasureWhatTheJointStateDoes) {
@@ -158,16 +161,19 @@ TEST_F(BankTest, ModesAreLikelyByTheirInnovations) {
     // Robot known, so that a mode's likelihood is that of its own S alone.
     const TargetGaussian all = merged();
     DenseJointBank joint(Vector3::Zero(), Matrix3::Zero(), Consistency::classic);
-    const BlockId target = joint.augment(BlockKind::target, NewBlock{all.mean, Eigen::Matrix<double, 6, 3>::Zero(), all.covariance});
+    const BlockId target = joint.augment(
+        BlockKind::target, NewBlock{all.mean, Eigen::Matrix<double, 6, 3>::Zero(), all.covariance});
     TargetBank bank = this->bank();
-    const RangeBearingDetection seen = test::seen({}, modes_[1].mean.head<2>() + Vector2(0.1, 0), ObjectKind::mover, 0);
+    const RangeBearingDetection seen =
+        test::seen({}, modes_[1].mean.head<2>() + Vector2(0.1, 0), ObjectKind::mover, 0);
     std::vector<Linearisation> by_mode;
     bank.linearise(joint.mode(0), target, seen, {}, Consistency::classic, by_mode);
     bank.update(joint.mode(0), target, by_mode, Consistency::classic);
     double weight[2];
     for (int j = 0; j < 2; ++j) {
         const RangeBearingPrediction h = predictRangeBearing(Vector3::Zero(), modes_[j].mean.head<2>(), {});
-        const Matrix2 S = h.H_point * modes_[j].covariance.topLeftCorner<2, 2>() * h.H_point.transpose() + seen.covariance;
+        const Matrix2 S =
+            h.H_point * modes_[j].covariance.topLeftCorner<2, 2>() * h.H_point.transpose() + seen.covariance;
         const Vector2 nu = rangeBearingResidual(seen.z(), h.z);
         weight[j] = mu_(j) * std::exp(-0.5 * nu.dot(S.inverse() * nu)) / std::sqrt(S.determinant());
     }
@@ -200,8 +206,8 @@ JointFilterParameters parametersOf(const std::string& modes, ImmForm form, Consi
 }
 
 TEST(BankedImmTest, IsExactWhereTheRobotIsKnown) {
-    // A robot that stands and knows where: nothing couples target and map, and the bank is the whole IMM. The exact
-    // form's likelihood is the same whether conditional on landmarks or not.
+    // A robot that stands and knows where: nothing couples target and map, and the bank is the whole IMM. The
+    // exact form's likelihood is the same whether conditional on landmarks or not.
     for (const Consistency consistency : {Consistency::classic, Consistency::invariant}) {
         const std::string modes = "cv:cv:0.3, left:ct:0.3:40, ca:ca:2";
         JointFilter exact(parametersOf(modes, ImmForm::exact, consistency), {}),
@@ -213,7 +219,8 @@ TEST(BankedImmTest, IsExactWhereTheRobotIsKnown) {
             std::vector<RangeBearingDetection> seen{
                 test::seen({1, 2, 0.5}, Vector2(6 + t, 2 + std::sin(t)), ObjectKind::mover, 0),
                 test::seen({1, 2, 0.5}, Vector2(4, -3), ObjectKind::landmark, 0)};
-            if (k % 5 > 0) seen.push_back(test::seen({1, 2, 0.5}, Vector2(-5 + t * t / 8, 4), ObjectKind::mover, 1));
+            if (k % 5 > 0)
+                seen.push_back(test::seen({1, 2, 0.5}, Vector2(-5 + t * t / 8, 4), ObjectKind::mover, 1));
             for (RangeBearingDetection& d : seen) d.range += 0.1 * random.normal();
             for (JointFilter* filter : {&exact, &scalable}) {
                 if (k > 0) filter->predict(test::odometry(t - 0.1, t, {}));
@@ -223,14 +230,16 @@ TEST(BankedImmTest, IsExactWhereTheRobotIsKnown) {
             for (std::size_t i = 0; i < a.size(); ++i) {
                 ASSERT_TRUE(near(b[i].mean, a[i].mean, 1e-8)) << k;
                 ASSERT_TRUE(near(b[i].covariance, a[i].covariance, 1e-8)) << k;
-                for (int j = 0; j < 3; ++j) ASSERT_NEAR(b[i].mode_probabilities[j], a[i].mode_probabilities[j], 1e-8) << k;
+                for (int j = 0; j < 3; ++j)
+                    ASSERT_NEAR(b[i].mode_probabilities[j], a[i].mode_probabilities[j], 1e-8) << k;
             }
         }
     }
 }
 
 TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAreAlone) {
-    // Movers are taken in one after another, linearised anew: equal to the EKF's batch where a batch is one mover.
+    // Movers are taken in one after another, linearised anew: equal to the EKF's batch where a batch is one
+    // mover.
     for (const Consistency consistency : {Consistency::classic, Consistency::invariant}) {
         JointFilter ekf(parametersOf("ca:ca:1.2", ImmForm::exact, consistency), {}),
             scalable(parametersOf("ca:ca:1.2", ImmForm::scalable, consistency), {});
@@ -241,7 +250,8 @@ TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAreAlone) {
             auto& seen = std::get<RangeBearingSet>(step.detections.measurements).detections;
             std::vector<RangeBearingDetection> some;
             for (const RangeBearingDetection& d : seen)
-                if (k % 2 == 0 ? d.kind == ObjectKind::landmark : d.kind == ObjectKind::mover && some.empty()) some.push_back(d);
+                if (k % 2 == 0 ? d.kind == ObjectKind::landmark : d.kind == ObjectKind::mover && some.empty())
+                    some.push_back(d);
             seen = some;
             for (JointFilter* filter : {&ekf, &scalable}) {
                 filter->predict(step.odometry);
@@ -259,8 +269,10 @@ TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAreAlone) {
 }
 
 TEST(BankedImmTest, GoesOnWhereTheExactFormStands) {
-    // The third mover turns the exact form into the scalable one; what is known of the first two does not change.
-    JointFilterParameters parameters = parametersOf("cv:cv:0.3, ca:ca:2", ImmForm::automatic, Consistency::invariant);
+    // The third mover turns the exact form into the scalable one; what is known of the first two does not
+    // change.
+    JointFilterParameters parameters =
+        parametersOf("cv:cv:0.3, ca:ca:2", ImmForm::automatic, Consistency::invariant);
     JointFilter filter(parameters, {});
     ImmScene scene;
     filter.start({}, scene.start());
@@ -278,11 +290,13 @@ TEST(BankedImmTest, GoesOnWhereTheExactFormStands) {
     const auto after = filter.tracks();
     ASSERT_EQ(after.size(), 3u);
     EXPECT_TRUE(near(filter.robot().mean.vector(), robot.mean.vector(), 1e-12));
-    EXPECT_TRUE(near(filter.jointCovariance().matrix.topLeftCorner<15, 15>(), joint.topLeftCorner<15, 15>(), 1e-12));
+    EXPECT_TRUE(
+        near(filter.jointCovariance().matrix.topLeftCorner<15, 15>(), joint.topLeftCorner<15, 15>(), 1e-12));
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_TRUE(near(after[i].mean, before[i].mean, 1e-10));
         EXPECT_TRUE(near(after[i].covariance, before[i].covariance, 1e-10));
-        for (int j = 0; j < 2; ++j) EXPECT_NEAR(after[i].mode_probabilities[j], before[i].mode_probabilities[j], 1e-12);
+        for (int j = 0; j < 2; ++j)
+            EXPECT_NEAR(after[i].mode_probabilities[j], before[i].mode_probabilities[j], 1e-12);
     }
 }
 

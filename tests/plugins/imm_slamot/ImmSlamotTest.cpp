@@ -15,7 +15,8 @@ std::shared_ptr<Estimator> imm(const std::string& modes) {
 }
 
 TEST(ImmSlamotTest, ModesHeadTheirProbabilities) {
-    const auto estimator = imm("modes = straight:cv:0.1, left:ct:0.2:20, right:ct:0.2:-20\ninitial = 0.5, 0.25, 0.25");
+    const auto estimator =
+        imm("modes = straight:cv:0.1, left:ct:0.2:20, right:ct:0.2:-20\ninitial = 0.5, 0.25, 0.25");
     EXPECT_EQ(estimator->modeNames(), (std::vector<std::string>{"straight", "left", "right"}));
     estimator->start({});
     DetectionSet set;

@@ -1,4 +1,5 @@
-// The scalable form against the exact one: the same logs of paper 1's world to both, ratio of errors over seeds.
+// The scalable form against the exact one: the same logs of paper 1's world to both, ratio of errors over
+// seeds.
 #include <gtest/gtest.h>
 #include <slamot/sim/Scenario.h>
 
@@ -29,9 +30,10 @@ struct Errors {
 Errors errorsOf(const std::string& form, const conformance::Play& play) {
     conformance::Options options;
     options.plugin = "imm_slamot";
-    options.config = "[imm_slamot]\nform = " + form +
-                     "\n[imm_slamot.outliers]\ntreatment = accept\n"
-                     "[imm_slamot.modes]\nmodes = cv:cv:0.1, ca:ca:1.8\nnoise_interval = 0\ntransition_interval = 0\n";
+    options.config =
+        "[imm_slamot]\nform = " + form +
+        "\n[imm_slamot.outliers]\ntreatment = accept\n"
+        "[imm_slamot.modes]\nmodes = cv:cv:0.1, ca:ca:1.8\nnoise_interval = 0\ntransition_interval = 0\n";
     const auto estimator = conformance::subjectFor(options, play);
     Errors sum;
     int steps = 0, sights = 0;
@@ -61,16 +63,16 @@ Errors ratio(const sim::Scenario& world, int seeds) {
 }
 
 TEST(ScalableFormTest, IsAsGoodAsTheExactOneOnADenseMap) {
-    // Measured over 30 seeds: 0.996 +- 0.011 and 0.997 +- 0.008. Ten seeds have deviations of 0.02 and 0.015; three
-    // of them.
+    // Measured over 30 seeds: 0.996 +- 0.011 and 0.997 +- 0.008. Ten seeds have deviations of 0.02 and 0.015;
+    // three of them.
     const Errors r = ratio(paperWorld(800, false), 10);
     EXPECT_NEAR(r.robot, 1, 0.06);
     EXPECT_NEAR(r.targets, 1, 0.045);
 }
 
 TEST(ScalableFormTest, CostsATenthOnASparseMapWithTwoMovers) {
-    // 40 landmarks. Measured over 200 seeds: 1.112 +- 0.027 and 1.088 +- 0.017; 60 seeds have deviations of 0.05 and
-    // 0.03.
+    // 40 landmarks. Measured over 200 seeds: 1.112 +- 0.027 and 1.088 +- 0.017; 60 seeds have deviations of
+    // 0.05 and 0.03.
     const Errors r = ratio(paperWorld(40, true), 60);
     EXPECT_LT(r.robot, 1.112 + 3 * 0.05);
     EXPECT_LT(r.targets, 1.088 + 3 * 0.03);

@@ -25,7 +25,8 @@ TargetBank bankFrom(const JointImm& exact, std::size_t t) {
 
 }  // namespace
 
-BankedImm::BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact) : ModalState(std::move(settings)) {
+BankedImm::BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact)
+    : ModalState(std::move(settings)) {
     for (std::size_t t = 0; t < exact.targets().size(); ++t)
         targets_.emplace_back(exact.targets()[t], bankFrom(exact, t));
     joint_ = exact.releaseMerged();
@@ -54,7 +55,8 @@ void BankedImm::predict(const OdometryIncrement& odometry, const std::vector<Tar
     }
 }
 
-void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known, std::vector<Innovation>& innovations) {
+void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
+                       std::vector<Innovation>& innovations) {
     joint_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, certain_);
     updateByLandmarks(seen, known, innovations);
     for (const auto& sight : known.targets) updateByTarget(seen, sight, innovations[sight.detection]);
@@ -66,8 +68,8 @@ void BankedImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObject
     batch_.clear();
     for (const auto& sight : known.landmarks) {
         const RangeBearingDetection& detection = seen.detections[sight.detection];
-        linear_.assign(1, linearise(joint_->mode(0), sight.block, detection, seen.sensors[detection.sensor].pose,
-                                    joint_->consistency()));
+        linear_.assign(1, linearise(joint_->mode(0), sight.block, detection,
+                                    seen.sensors[detection.sensor].pose, joint_->consistency()));
         Innovation& innovation = innovations[sight.detection];
         linear_.front().measurement.R += settings().gate.judge(certain_, linear_, detection, innovation);
         if (innovation.outcome != Outcome::rejected) batch_.push_back(linear_.front().measurement);
@@ -75,7 +77,8 @@ void BankedImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObject
     joint_->mode(0).update(batch_);
 }
 
-void BankedImm::updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation) {
+void BankedImm::updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
+                               Innovation& innovation) {
     JointMode& joint = joint_->mode(0);
     TargetBank& bank = targets_[indexOf(sight.block)].second;
     const RangeBearingDetection& detection = seen.detections[sight.detection];
@@ -104,7 +107,8 @@ BlockId BankedImm::addTarget(const RangeBearingDetection& detection, const Pose2
     const BlockId target = joint_->augment(BlockKind::target, newTarget(detection, sensor));
     const Eigen::VectorXd& initial = settings().initial;
     targets_.emplace_back(
-        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()), marginal(target))));
+        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()),
+                                                                marginal(target))));
     return target;
 }
 

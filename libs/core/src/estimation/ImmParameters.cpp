@@ -11,7 +11,8 @@ namespace slamot {
 namespace {
 
 const std::string modes_expected =
-    "name:model:noise_std[:turn_deg] entries separated by commas, with different names of letters, digits and _, e.g. "
+    "name:model:noise_std[:turn_deg] entries separated by commas, with different names of letters, digits "
+    "and _, e.g. "
     "cv:cv:0.5, ca:ca:1.5, left:ct:0.5:20";
 const std::string probabilities_expected = "numbers in [0, 1] separated by commas, or auto";
 
@@ -21,7 +22,8 @@ std::string modesText(const std::vector<TargetMode>& modes) {
         ParameterTable keys("mode", "");
         TargetModel copy = model;
         describe(copy, keys);
-        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", name, toText(model.kind), shortestText(model.noise_std));
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", name, toText(model.kind),
+                            shortestText(model.noise_std));
         if (model.kind == TargetModelKind::ct) text += ":" + keys.find("turn_rate_deg")->print();
         if (model.kind == TargetModelKind::unicycle) text += ":" + keys.find("turn_rate_std_deg")->print();
     }
@@ -63,16 +65,21 @@ std::optional<std::vector<TargetMode>> modesFromText(const std::string& text) {
     return modes;
 }
 
-Parameter probabilities(const std::string& key, std::optional<std::vector<double>>& field, const std::string& help) {
+Parameter probabilities(const std::string& key, std::optional<std::vector<double>>& field,
+                        const std::string& help) {
     const auto list = [key](std::vector<double>& numbers) {
         ParameterTable table("list", "");
         table.reals(key, numbers, "-", Interval::probability(), "");
         return *table.find(key);
     };
-    return {key, "-", probabilities_expected, help,
+    return {key,
+            "-",
+            probabilities_expected,
+            help,
             [&field, list](const std::string& text) -> std::optional<std::string> {
                 std::vector<double> numbers;
-                if (text != "auto" && (list(numbers).parse(text) || numbers.empty())) return probabilities_expected;
+                if (text != "auto" && (list(numbers).parse(text) || numbers.empty()))
+                    return probabilities_expected;
                 field = text == "auto" ? std::nullopt : std::optional(numbers);
                 return std::nullopt;
             },
@@ -88,7 +95,8 @@ Parameter probabilities(const std::string& key, std::optional<std::vector<double
 void describe(ImmParameters& p, ParameterTable& table) {
     table
         .custom({"modes", "m/s^2 (ca: m/s^3), deg/s", modes_expected,
-                 "The motions a mover may change between: cv, ca, ct with its turn rate, unicycle with the change of its turn rate.",
+                 "The motions a mover may change between: cv, ca, ct with its turn rate, unicycle with the "
+                 "change of its turn rate.",
                  [&p](const std::string& text) -> std::optional<std::string> {
                      auto modes = modesFromText(text);
                      if (!modes) return modes_expected;
@@ -97,15 +105,18 @@ void describe(ImmParameters& p, ParameterTable& table) {
                  },
                  [&p] { return modesText(p.modes); }})
         .real("noise_interval", p.noise_interval, "s", Interval::nonNegative(),
-              "How long one draw of the driving noise holds; 0: for each prediction step, which makes the noise "
+              "How long one draw of the driving noise holds; 0: for each prediction step, which makes the "
+              "noise "
               "depend on the rate of the odometry.")
         .real("stay_probability", p.stay_probability, "-", Interval::probability(),
               "Probability that a mover keeps its mode; the rest is shared evenly between the others.")
-        .custom(probabilities("transition", p.transition,
-                              "Instead of stay_probability, all transition probabilities row by row: row i holds where "
-                              "a mover in mode i goes."))
+        .custom(probabilities(
+            "transition", p.transition,
+            "Instead of stay_probability, all transition probabilities row by row: row i holds where "
+            "a mover in mode i goes."))
         .real("transition_interval", p.transition_interval, "s", Interval::nonNegative(),
-              "Time after which the transition probabilities hold; other lengths of prediction use powers of the "
+              "Time after which the transition probabilities hold; other lengths of prediction use powers of "
+              "the "
               "matrix. 0: they hold for each prediction, whatever its length.")
         .custom(probabilities("initial", p.initial, "Mode probabilities at first sight; auto: all equal."));
 }

@@ -5,7 +5,8 @@
 namespace slamot {
 namespace {
 
-std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p, const RobotMotionParameters& motion) {
+std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p,
+                                                  const RobotMotionParameters& motion) {
     return std::make_shared<const ModalSettings>(ModalSettings{motion,
                                                                {p.outliers, p.gate_probability},
                                                                p.target_velocity_std,
@@ -18,7 +19,9 @@ std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p
 }  // namespace
 
 JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMotionParameters& motion)
-    : parameters_(parameters), settings_(settingsFrom(parameters, motion)), models_(modelsOf(parameters.imm)) {
+    : parameters_(parameters),
+      settings_(settingsFrom(parameters, motion)),
+      models_(modelsOf(parameters.imm)) {
     if (models_.empty()) models_.push_back(parameters_.target);
 }
 
@@ -59,11 +62,13 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
     for (const Innovation& innovation : report.innovations) markSeen(innovation, set.stamp);
     for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
         for (Innovation& innovation : report.innovations)
-            if (innovation.outcome == Outcome::initiated && innovation.kind == kind) initiate(set, innovation);
+            if (innovation.outcome == Outcome::initiated && innovation.kind == kind)
+                initiate(set, innovation);
     return report;
 }
 
-// --- life of objects ---------------------------------------------------------------------------------------------
+// --- life of objects
+// ---------------------------------------------------------------------------------------------
 
 Innovation JointFilter::associate(const RangeBearingDetection& detection, int index) {
     Innovation innovation;
@@ -109,9 +114,11 @@ void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
         return;
     }
     if (mover)
-        innovation.track = objects_.addTrack(belief_->addTarget(detection, sensor), detection.source, set.stamp).id;
+        innovation.track =
+            objects_.addTrack(belief_->addTarget(detection, sensor), detection.source, set.stamp).id;
     else
-        innovation.landmark = objects_.addLandmark(belief_->addLandmark(detection, sensor), detection.source, set.stamp).id;
+        innovation.landmark =
+            objects_.addLandmark(belief_->addLandmark(detection, sensor), detection.source, set.stamp).id;
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {
@@ -124,7 +131,8 @@ void JointFilter::endUnseenTracks(Stamp now) {
     if (objects_.tracks().empty() && parameters_.imm.form == ImmForm::automatic) becomeExact();
 }
 
-// --- forms of the IMM --------------------------------------------------------------------------------------------
+// --- forms of the IMM
+// --------------------------------------------------------------------------------------------
 
 bool JointFilter::admitTarget() {
     const bool room = settings_->chain.modes() == 1 ||
@@ -143,7 +151,8 @@ void JointFilter::becomeExact() {
         belief_ = std::make_unique<JointImm>(settings_, scalable->release());
 }
 
-// --- estimates ---------------------------------------------------------------------------------------------------
+// --- estimates
+// ---------------------------------------------------------------------------------------------------
 
 std::vector<std::string> JointFilter::modeNames() const {
     std::vector<std::string> names;
@@ -166,16 +175,21 @@ std::vector<TrackEstimate> JointFilter::tracks() const {
         estimate.mean = belief.mean;
         estimate.covariance = belief.covariance;
         if (!parameters_.imm.modes.empty())
-            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(), belief.mode_probabilities.end());
+            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
+                                               belief.mode_probabilities.end());
         out.push_back(std::move(estimate));
     }
     return out;
 }
 
 LandmarkEstimate JointFilter::estimateOf(const LandmarkRecord& landmark) const {
-    return {landmark.id,   landmark.source,     belief_->mean(landmark.block),
+    return {landmark.id,
+            landmark.source,
+            belief_->mean(landmark.block),
             belief_->covariance(landmark.block, landmark.block),
-            landmark.seen, landmark.first_seen, landmark.last_seen};
+            landmark.seen,
+            landmark.first_seen,
+            landmark.last_seen};
 }
 
 std::vector<LandmarkEstimate> JointFilter::landmarks() const {

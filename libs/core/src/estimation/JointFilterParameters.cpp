@@ -15,8 +15,8 @@ const std::string schedule_expected =
 std::string scheduleText(const std::vector<ModelChange>& schedule) {
     std::string text;
     for (const ModelChange& change : schedule)
-        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after), toText(change.kind),
-                            shortestText(change.noise_std));
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after),
+                            toText(change.kind), shortestText(change.noise_std));
     return text.empty() ? "none" : text;
 }
 
@@ -47,13 +47,15 @@ ParameterTable filterTable(JointFilterParameters& p, const std::string& name, co
     ParameterTable filter(name, about);
     filter
         .choice("consistency", p.consistency,
-                  {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
-                  "invariant: covariance transported along updates, second-order range terms; classic: the textbook "
-                  "EKF, which grows over-confident.")
-        .choice("engine", p.engine.kind,
-                {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
-                "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
-                "costs what is near the sensors.");
+                {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
+                "invariant: covariance transported along updates, second-order range terms; classic: the "
+                "textbook "
+                "EKF, which grows over-confident.")
+        .choice(
+            "engine", p.engine.kind,
+            {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
+            "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
+            "costs what is near the sensors.");
     return filter;
 }
 
@@ -82,11 +84,13 @@ void describeLife(JointFilterParameters& p, ParameterTable& target) {
 
 }  // namespace
 
-std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name, const std::string& about) {
+std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name,
+                                     const std::string& about) {
     ParameterTable target(name + ".target", "Motion and life of tracks.");
     describe(p.target, target);
     target.custom({"schedule", "s", schedule_expected,
-                   "Changes of the model at known times since the start, for all movers: a filter that is told the mode.",
+                   "Changes of the model at known times since the start, for all movers: a filter that is "
+                   "told the mode.",
                    [&p](const std::string& text) -> std::optional<std::string> {
                        auto schedule = scheduleFromText(text);
                        if (!schedule) return schedule_expected;
@@ -95,19 +99,24 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
                    },
                    [&p] { return scheduleText(p.target_schedule); }});
     describeLife(p, target);
-    return {filterTable(p, name, about), describe(p.engine.active_set, name + ".engine"), outlierTable(p, name), target};
+    return {filterTable(p, name, about), describe(p.engine.active_set, name + ".engine"),
+            outlierTable(p, name), target};
 }
 
-std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name, const std::string& about) {
+std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name,
+                                        const std::string& about) {
     ParameterTable filter = filterTable(p, name, about);
     filter
         .choice("likelihood", p.imm.likelihood,
                 {{"conditional", ModeLikelihood::conditional}, {"marginal", ModeLikelihood::marginal}},
-                "What makes a mode likely: the mover's innovation given the landmarks' of the same batch, or alone.")
+                "What makes a mode likely: the mover's innovation given the landmarks' of the same batch, or "
+                "alone.")
         .choice("form", p.imm.form,
                 {{"auto", ImmForm::automatic}, {"exact", ImmForm::exact}, {"scalable", ImmForm::scalable}},
-                "exact: a joint Gaussian for each combination of the movers' modes; scalable: one joint Gaussian and a "
-                "bank of modes for each mover; auto: exact up to max_exact_targets, scalable from the next mover on "
+                "exact: a joint Gaussian for each combination of the movers' modes; scalable: one joint "
+                "Gaussian and a "
+                "bank of modes for each mover; auto: exact up to max_exact_targets, scalable from the next "
+                "mover on "
                 "until all tracks have ended.")
         .integer("max_exact_targets", p.imm.max_exact_targets, Interval::between(1, 4),
                  "Movers in the exact form at most; where form = exact, further ones are ignored.");

@@ -12,7 +12,8 @@ namespace slamot {
 JointImm::JointImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank)
     : ModalState(std::move(settings)), bank_(std::move(bank)), mu_(Eigen::VectorXd::Ones(1)) {}
 
-// --- one step: paper 1, section 2.3 ------------------------------------------------------------------------------
+// --- one step: paper 1, section 2.3
+// ------------------------------------------------------------------------------
 
 void JointImm::predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) {
     mix(odometry.seconds());
@@ -50,7 +51,8 @@ void JointImm::regroup(const Eigen::MatrixXd& weights) {
     mu_ = c / c.sum();
 }
 
-void JointImm::update(const RangeBearingSet& seen, const KnownObjects& known, std::vector<Innovation>& innovations) {
+void JointImm::update(const RangeBearingSet& seen, const KnownObjects& known,
+                      std::vector<Innovation>& innovations) {
     bank_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, mu_);
 
     // All measurements are linearised at the predicted state; the movers' come last.
@@ -62,24 +64,27 @@ void JointImm::update(const RangeBearingSet& seen, const KnownObjects& known, st
 
     log_mu_.resize(mu_.size());
     for (int j = 0; j < bank_->modeCount(); ++j) {
-        const BatchLikelihood batch = bank_->mode(j).update(batches_[static_cast<std::size_t>(j)]);  // eq. 52, 53
+        const BatchLikelihood batch =
+            bank_->mode(j).update(batches_[static_cast<std::size_t>(j)]);  // eq. 52, 53
         const int target_rows = batch.rows() - landmark_rows;
         const double log_Lambda = settings().likelihood == ModeLikelihood::conditional
                                       ? batch.logConditional(landmark_rows, target_rows)
                                       : batch.logMarginal(landmark_rows, target_rows);
         log_mu_(j) = std::log(mu_(j)) + log_Lambda;  // eq. 54, where mu_ still is c
     }
-    if (!(log_mu_.maxCoeff() > -std::numeric_limits<double>::infinity())) return;  // equally impossible in all modes
+    if (!(log_mu_.maxCoeff() > -std::numeric_limits<double>::infinity()))
+        return;  // equally impossible in all modes
     mu_ = (log_mu_.array() - log_mu_.maxCoeff()).exp();
     mu_ /= mu_.sum();
 }
 
-void JointImm::addToBatches(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation) {
+void JointImm::addToBatches(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
+                            Innovation& innovation) {
     const RangeBearingDetection& detection = seen.detections[sight.detection];
     linear_.clear();
     for (int j = 0; j < bank_->modeCount(); ++j)
-        linear_.push_back(linearise(bank_->mode(j), sight.block, detection, seen.sensors[detection.sensor].pose,
-                                    bank_->consistency()));
+        linear_.push_back(linearise(bank_->mode(j), sight.block, detection,
+                                    seen.sensors[detection.sensor].pose, bank_->consistency()));
     const Matrix2 more_noise = settings().gate.judge(mu_, linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (std::size_t j = 0; j < linear_.size(); ++j) {
@@ -88,7 +93,8 @@ void JointImm::addToBatches(const RangeBearingSet& seen, const KnownObjects::Sig
     }
 }
 
-// --- objects that come and go ------------------------------------------------------------------------------------
+// --- objects that come and go
+// ------------------------------------------------------------------------------------
 
 BlockId JointImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {
     return bank_->augment(BlockKind::landmark, newLandmark(detection, sensor));
@@ -129,7 +135,8 @@ std::unique_ptr<JointBank> JointImm::releaseMerged() {
     return std::move(bank_);
 }
 
-// --- estimates: eq. 55, 56 ---------------------------------------------------------------------------------------
+// --- estimates: eq. 55, 56
+// ---------------------------------------------------------------------------------------
 
 BlockVector JointImm::mean(BlockId block) const {
     return mu_.size() == 1 ? bank_->mode(0).mean(block) : CombinedView(*bank_, mu_).mean(block);
@@ -140,12 +147,15 @@ BlockMatrix JointImm::covariance(BlockId a, BlockId b) const {
 }
 
 Eigen::MatrixXd JointImm::jointCovariance(const std::vector<BlockId>& blocks) const {
-    return mu_.size() == 1 ? bank_->mode(0).jointCovariance(blocks) : CombinedView(*bank_, mu_).jointCovariance(blocks);
+    return mu_.size() == 1 ? bank_->mode(0).jointCovariance(blocks)
+                           : CombinedView(*bank_, mu_).jointCovariance(blocks);
 }
 
 TargetBelief JointImm::target(BlockId target) const {
-    TargetBelief out{mean(target), covariance(target, target), Eigen::VectorXd::Zero(settings().chain.modes())};
-    const auto t = static_cast<std::size_t>(std::find(targets_.begin(), targets_.end(), target) - targets_.begin());
+    TargetBelief out{mean(target), covariance(target, target),
+                     Eigen::VectorXd::Zero(settings().chain.modes())};
+    const auto t =
+        static_cast<std::size_t>(std::find(targets_.begin(), targets_.end(), target) - targets_.begin());
     for (int i = 0; i < mu_.size(); ++i) out.mode_probabilities(modeOf(i, t)) += mu_(i);
     return out;
 }

@@ -12,7 +12,8 @@ void KnownObjects::clear() {
     blocks.clear();
 }
 
-std::vector<NewBlock> ModalState::newLandmark(const RangeBearingDetection& detection, const Pose2& sensor) const {
+std::vector<NewBlock> ModalState::newLandmark(const RangeBearingDetection& detection,
+                                              const Pose2& sensor) const {
     std::vector<NewBlock> by_mode;
     for (int j = 0; j < bank().modeCount(); ++j) {
         const FirstSight sight = firstSight(bank().mode(j), detection, sensor, bank().consistency());
@@ -21,7 +22,8 @@ std::vector<NewBlock> ModalState::newLandmark(const RangeBearingDetection& detec
     return by_mode;
 }
 
-std::vector<NewBlock> ModalState::newTarget(const RangeBearingDetection& detection, const Pose2& sensor) const {
+std::vector<NewBlock> ModalState::newTarget(const RangeBearingDetection& detection,
+                                            const Pose2& sensor) const {
     std::vector<NewBlock> by_mode;
     for (const NewBlock& point : newLandmark(detection, sensor)) {
         // A mover's velocity and acceleration are not seen at first sight: priors around zero.

@@ -27,7 +27,8 @@ Eigen::MatrixXd generatorOf(const Eigen::MatrixXd& p, double interval) {
     // The logarithm of a matrix with a negative eigenvalue is not real, and does not lead back.
     if (!log_p.allFinite() || !(log_p - G).isZero(rounding) || !(G.exp() - p).isZero(rounding))
         throw std::invalid_argument(
-            "no chain in continuous time has this transition matrix (its logarithm is no matrix of rates), expected "
+            "no chain in continuous time has this transition matrix (its logarithm is no matrix of rates), "
+            "expected "
             "larger probabilities to stay, or transition_interval = 0");
     return G / interval;
 }
@@ -48,14 +49,16 @@ Eigen::MatrixXd ModeChain::over(double dt) const {
 ModeChain chainOf(const ImmParameters& parameters) {
     const auto n = static_cast<Eigen::Index>(parameters.modes.size());
     if (n <= 1) return {};
-    Eigen::MatrixXd p = Eigen::MatrixXd::Constant(n, n, (1.0 - parameters.stay_probability) / static_cast<double>(n - 1));
+    Eigen::MatrixXd p =
+        Eigen::MatrixXd::Constant(n, n, (1.0 - parameters.stay_probability) / static_cast<double>(n - 1));
     p.diagonal().setConstant(parameters.stay_probability);
     if (parameters.transition) {
         const auto& given = *parameters.transition;
         if (given.size() != static_cast<std::size_t>(n * n))
             throw std::invalid_argument(
                 fmt::format("transition has {} numbers, expected {} rows of {}", given.size(), n, n));
-        p = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(given.data(), n, n);
+        p = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            given.data(), n, n);
     }
     return {p, parameters.transition_interval};
 }
@@ -65,7 +68,8 @@ Eigen::VectorXd initialProbabilities(const ImmParameters& parameters) {
     if (!parameters.initial) return Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n));
     const auto& given = *parameters.initial;
     if (given.size() != static_cast<std::size_t>(n))
-        throw std::invalid_argument(fmt::format("initial has {} numbers, expected {}, one for each mode", given.size(), n));
+        throw std::invalid_argument(
+            fmt::format("initial has {} numbers, expected {}, one for each mode", given.size(), n));
     const Eigen::VectorXd mu = Eigen::Map<const Eigen::VectorXd>(given.data(), n);
     requireProbabilities(mu, "initial");
     return mu;

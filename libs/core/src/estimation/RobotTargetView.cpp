@@ -1,7 +1,6 @@
 #include "RobotTargetView.h"
 
 #include <Eigen/Cholesky>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -30,7 +29,8 @@ double RobotTargetView::update(const LinearMeasurement& m, Consistency consisten
     for (int k = 0; k < m.term_count; ++k)
         H.middleCols(offset(m.terms[k].block), m.terms[k].H.cols()) += m.terms[k].H;
     const Eigen::LLT<Matrix2> S(H * P_ * H.transpose() + m.R);
-    if (S.info() != Eigen::Success) throw std::domain_error("innovation covariance S is not positive definite");
+    if (S.info() != Eigen::Success)
+        throw std::domain_error("innovation covariance S is not positive definite");
 
     const Eigen::Matrix<double, 9, 2> W = S.matrixL().solve(H * P_).transpose();  // P H^t L^-t
     const Vector2 w = S.matrixL().solve(m.residual);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 #include "RobotTargetView.h"
@@ -31,7 +30,8 @@ struct BlockFactor {
 };
 BlockFactor factorise(Matrix6 P) {
     BlockFactor out;
-    const double whole[] = {P.block<2, 2>(0, 0).trace(), P.block<2, 2>(2, 2).trace(), P.block<2, 2>(4, 4).trace()};
+    const double whole[] = {P.block<2, 2>(0, 0).trace(), P.block<2, 2>(2, 2).trace(),
+                            P.block<2, 2>(4, 4).trace()};
     for (int k = 0; k < 3; ++k) {
         const int at = 2 * k, rest = 4 - at;
         out.D[k] = P.block<2, 2>(at, at);
@@ -48,7 +48,8 @@ BlockFactor factorise(Matrix6 P) {
 Matrix2 symmetricMap(const Matrix2& A, double floor, const Matrix2& B) {
     const Matrix2 root = onSpectrum(A, floor, [](double l) { return std::sqrt(l); });
     const Matrix2 inverse_root = onSpectrum(A, floor, [](double l) { return 1.0 / std::sqrt(l); });
-    return inverse_root * onSpectrum(root * B * root, 0.0, [](double l) { return std::sqrt(l); }) * inverse_root;
+    return inverse_root * onSpectrum(root * B * root, 0.0, [](double l) { return std::sqrt(l); }) *
+           inverse_root;
 }
 
 Matrix6 symmetric(const Matrix6& P) {
@@ -57,10 +58,12 @@ Matrix6 symmetric(const Matrix6& P) {
 
 TargetGaussian mixture(const Eigen::Ref<const Eigen::VectorXd>& w, const std::vector<TargetGaussian>& modes) {
     TargetGaussian out{Vector6::Zero(), Matrix6::Zero()};
-    for (std::size_t i = 0; i < modes.size(); ++i) out.mean += w(static_cast<Eigen::Index>(i)) * modes[i].mean;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+        out.mean += w(static_cast<Eigen::Index>(i)) * modes[i].mean;
     for (std::size_t i = 0; i < modes.size(); ++i) {
         const Vector6 spread = modes[i].mean - out.mean;
-        out.covariance += w(static_cast<Eigen::Index>(i)) * (modes[i].covariance + spread * spread.transpose());
+        out.covariance +=
+            w(static_cast<Eigen::Index>(i)) * (modes[i].covariance + spread * spread.transpose());
     }
     return out;
 }
@@ -101,15 +104,16 @@ void TargetBank::synchronise(const TargetGaussian& joint) {
     snapshot_ = joint;
 }
 
-BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<TargetModel>& models, double dt,
-                                    const Vector6& joint_mean) {
+BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<TargetModel>& models,
+                                    double dt, const Vector6& joint_mean) {
     // c_j = sum_i p_ij mu_i; mode j starts from the mixture with weights p_ij mu_i / c_j.
     const Eigen::VectorXd c = p.transpose() * mu_;
     std::vector<TargetGaussian> mixed(modes_.size()), predicted(modes_.size());
     std::vector<Matrix6> A(modes_.size());
     for (std::size_t j = 0; j < modes_.size(); ++j) {
         const auto column = static_cast<Eigen::Index>(j);
-        const Eigen::VectorXd given = c(column) > 0 ? Eigen::VectorXd(p.col(column).cwiseProduct(mu_) / c(column)) : mu_;
+        const Eigen::VectorXd given =
+            c(column) > 0 ? Eigen::VectorXd(p.col(column).cwiseProduct(mu_) / c(column)) : mu_;
         mixed[j] = mixture(given, modes_);
         const TargetPrediction f = predictTarget(models[j], mixed[j].mean, dt);
         A[j] = f.F;
@@ -120,8 +124,9 @@ BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<
     const TargetGaussian before = mixture(c, mixed), after = mixture(c, predicted);
     Matrix6 X = Matrix6::Zero();
     for (std::size_t j = 0; j < modes_.size(); ++j)
-        X += c(static_cast<Eigen::Index>(j)) * (A[j] * mixed[j].covariance +
-                      (predicted[j].mean - after.mean) * (mixed[j].mean - before.mean).transpose());
+        X += c(static_cast<Eigen::Index>(j)) *
+             (A[j] * mixed[j].covariance +
+              (predicted[j].mean - after.mean) * (mixed[j].mean - before.mean).transpose());
     const Matrix6 Phi = X * pseudoInverse(before.covariance);
     modes_ = std::move(predicted);
     mu_ = c;
@@ -130,7 +135,8 @@ BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<
 }
 
 void TargetBank::linearise(const JointView& joint, BlockId target, const RangeBearingDetection& detection,
-                           const Pose2& sensor, Consistency consistency, std::vector<Linearisation>& by_mode) const {
+                           const Pose2& sensor, Consistency consistency,
+                           std::vector<Linearisation>& by_mode) const {
     const RobotGivenTarget robot(joint, target);
     by_mode.clear();
     for (const TargetGaussian& mode : modes_)

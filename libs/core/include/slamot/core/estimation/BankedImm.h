@@ -1,6 +1,7 @@
 #pragma once
-// The interacting multiple model filter for many movers: one joint Gaussian over robot, movers and map, and beside
-// it a bank of modes for each mover. Robot and map are reported from the joint Gaussian, movers from their banks.
+// The interacting multiple model filter for many movers: one joint Gaussian over robot, movers and map, and
+// beside it a bank of modes for each mover. Robot and map are reported from the joint Gaussian, movers from
+// their banks.
 #include <utility>
 
 #include "slamot/core/estimation/JointImm.h"
@@ -36,12 +37,13 @@ class BankedImm : public ModalState {
     std::size_t indexOf(BlockId target) const;
     void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
                            std::vector<Innovation>& innovations);
-    void updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
+    void updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
+                        Innovation& innovation);
 
     std::unique_ptr<JointBank> joint_;
     std::vector<std::pair<BlockId, TargetBank>> targets_;
     Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
-    std::vector<LinearMeasurement> batch_;  ///< kept for its capacity
+    std::vector<LinearMeasurement> batch_;                ///< kept for its capacity
     std::vector<Linearisation> linear_;
 };
 

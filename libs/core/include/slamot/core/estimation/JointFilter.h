@@ -1,7 +1,7 @@
 #pragma once
 // The joint filter over robot, movers and landmarks (paper 1, section 2): the EKF of ekf_slamot, the IMM of
-// imm_slamot, and what the other joint estimators are composed of. Here objects are found, started and ended; how
-// movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
+// imm_slamot, and what the other joint estimators are composed of. Here objects are found, started and ended;
+// how movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
 #include <memory>
 #include <vector>
 
@@ -15,8 +15,8 @@
 
 namespace slamot {
 
-/// A change of the movers' motion at a known time: a filter that is told the mode. What is not named here stays as
-/// the target model has it.
+/// A change of the movers' motion at a known time: a filter that is told the mode. What is not named here
+/// stays as the target model has it.
 struct ModelChange {
     double after = 0;  ///< [s] since the start; holds for predictions that begin at or after it
     TargetModelKind kind = TargetModelKind::cv;
@@ -57,8 +57,8 @@ class JointFilter {
     void start(Stamp stamp, const PoseGaussian& pose);
     void predict(const OdometryIncrement& odometry);
     /// One batch: all known objects at once, linearised at the predicted state; then new movers, then new
-    /// landmarks are added. Objects are known by the identity the log gives; detections without one are ignored
-    /// and counted.
+    /// landmarks are added. Objects are known by the identity the log gives; detections without one are
+    /// ignored and counted.
     UpdateReport update(const DetectionSet& detections);
 
     PoseGaussian robot() const;

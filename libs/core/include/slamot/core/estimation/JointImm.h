@@ -1,6 +1,6 @@
 #pragma once
-// The interacting multiple model filter on the joint state, exact in the movers' modes (paper 1, section 2.3): one
-// joint Gaussian for each combination of modes. With one mode, or no mover, it is the EKF.
+// The interacting multiple model filter on the joint state, exact in the movers' modes (paper 1,
+// section 2.3): one joint Gaussian for each combination of modes. With one mode, or no mover, it is the EKF.
 #include "slamot/core/estimation/ModalState.h"
 
 namespace slamot {

@@ -1,6 +1,6 @@
 #pragma once
-// Robot, movers and landmarks with the movers' modes: what a joint filter is made of. One way to keep the modes is
-// exact (JointImm; with one mode it is the EKF), one is scalable (BankedImm).
+// Robot, movers and landmarks with the movers' modes: what a joint filter is made of. One way to keep the
+// modes is exact (JointImm; with one mode it is the EKF), one is scalable (BankedImm).
 #include <memory>
 #include <vector>
 

@@ -16,10 +16,10 @@ struct OutlierGate {
     OutlierTreatment treatment = OutlierTreatment::inflate;
     double probability = 0.999;
 
-    /// Judges a detection by the mode that explains it best, so that a mover that changes its mode is no outlier,
-    /// and treats it alike in all modes, so that their likelihoods stay comparable. Puts into `innovation` the
-    /// moment-matched innovation over modes of probability mu, and the outcome; gives the noise to be added to that
-    /// of the detection.
+    /// Judges a detection by the mode that explains it best, so that a mover that changes its mode is no
+    /// outlier, and treats it alike in all modes, so that their likelihoods stay comparable. Puts into
+    /// `innovation` the moment-matched innovation over modes of probability mu, and the outcome; gives the
+    /// noise to be added to that of the detection.
     Matrix2 judge(const Eigen::VectorXd& mu, const std::vector<Linearisation>& by_mode,
                   const RangeBearingDetection& detection, Innovation& innovation) const;
 };

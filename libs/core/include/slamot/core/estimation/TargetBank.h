@@ -1,6 +1,6 @@
 #pragma once
-// The modes of one mover beside a joint state of one mode: an IMM of six dimensions that keeps in step with the
-// mover's block of the joint state (doc/plugins/imm_slamot.md, "Several movers").
+// The modes of one mover beside a joint state of one mode: an IMM of six dimensions that keeps in step with
+// the mover's block of the joint state (doc/plugins/imm_slamot.md, "Several movers").
 #include <vector>
 
 #include "slamot/core/estimation/ModalState.h"
@@ -18,8 +18,9 @@ struct BlockPrediction {
     Matrix6 Phi, Q;
 };
 
-/// L with L from L^t = to: 2 x 2 blocks, lower triangular, symmetric on the diagonal. It turns with the world, does
-/// not depend on units, and is near I where `to` is near `from`. Components without variance are mapped to 0.
+/// L with L from L^t = to: 2 x 2 blocks, lower triangular, symmetric on the diagonal. It turns with the
+/// world, does not depend on units, and is near I where `to` is near `from`. Components without variance are
+/// mapped to 0.
 Matrix6 covarianceMap(const Matrix6& from, const Matrix6& to);
 
 class TargetBank {

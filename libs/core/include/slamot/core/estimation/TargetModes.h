@@ -19,8 +19,9 @@ class ModeChain {
   public:
     /// One mode, which a mover never leaves.
     ModeChain() : p_(Eigen::MatrixXd::Ones(1, 1)) {}
-    /// `p` holds over `interval` [s]; 0: over a prediction, whatever its length. Throws std::invalid_argument with
-    /// one sentence when rows do not sum to 1, or when no chain in continuous time has p after `interval`.
+    /// `p` holds over `interval` [s]; 0: over a prediction, whatever its length. Throws std::invalid_argument
+    /// with one sentence when rows do not sum to 1, or when no chain in continuous time has p after
+    /// `interval`.
     ModeChain(const Eigen::MatrixXd& p, double interval);
 
     int modes() const { return static_cast<int>(p_.rows()); }
