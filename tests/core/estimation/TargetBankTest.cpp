@@ -8,6 +8,7 @@
 #include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/JointFilter.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
+#include "slamot/core/estimation/RobotTargetView.h"
 #include "slamot/core/estimation/TargetBank.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
@@ -144,12 +145,13 @@ TEST_F(BankTest, EqualModesMeasureWhatTheJointStateDoes) {
         const RangeBearingDetection seen =
             test::seen({1.1, -1, 0.45}, merged().mean.head<2>() + Vector2(0.2, 0.1), ObjectKind::mover, 0);
         std::vector<Linearisation> by_mode;
-        bank.linearise(ekf, target, seen, {}, consistency, by_mode);
+        const RobotGivenTarget robot(ekf, target);
+        bank.linearise(robot, seen, {}, consistency, by_mode);
         const Linearisation whole = linearise(ekf, target, seen, {}, consistency);
         ASSERT_EQ(by_mode.size(), 2u);
         EXPECT_TRUE(near(by_mode[0].S, whole.S, 1e-12));
         EXPECT_TRUE(near(by_mode[0].measurement.residual, whole.measurement.residual, 1e-12));
-        bank.update(ekf, target, by_mode, consistency);
+        bank.update(robot, by_mode, consistency);
         ekf.update({whole.measurement});
         EXPECT_TRUE(near(bank.merged().mean, Vector6(ekf.mean(target)), 1e-12));
         EXPECT_TRUE(near(bank.merged().covariance, Matrix6(ekf.covariance(target, target)), 1e-12));
@@ -167,8 +169,9 @@ TEST_F(BankTest, ModesAreLikelyByTheirInnovations) {
     const RangeBearingDetection seen =
         test::seen({}, modes_[1].mean.head<2>() + Vector2(0.1, 0), ObjectKind::mover, 0);
     std::vector<Linearisation> by_mode;
-    bank.linearise(joint.mode(0), target, seen, {}, Consistency::classic, by_mode);
-    bank.update(joint.mode(0), target, by_mode, Consistency::classic);
+    const RobotGivenTarget robot(joint.mode(0), target);
+    bank.linearise(robot, seen, {}, Consistency::classic, by_mode);
+    bank.update(robot, by_mode, Consistency::classic);
     double weight[2];
     for (int j = 0; j < 2; ++j) {
         const RangeBearingPrediction h = predictRangeBearing(Vector3::Zero(), modes_[j].mean.head<2>(), {});
@@ -237,7 +240,7 @@ TEST(BankedImmTest, IsExactWhereTheRobotIsKnown) {
     }
 }
 
-TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAreAlone) {
+TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAndLandmarksAreSeenInTurns) {
     // Movers are taken in one after another, linearised anew: equal to the EKF's batch where a batch is one
     // mover.
     for (const Consistency consistency : {Consistency::classic, Consistency::invariant}) {
@@ -250,7 +253,7 @@ TEST(BankedImmTest, OneModeIsTheEkfWhereMoversAreAlone) {
             auto& seen = std::get<RangeBearingSet>(step.detections.measurements).detections;
             std::vector<RangeBearingDetection> some;
             for (const RangeBearingDetection& d : seen)
-                if (k % 2 == 0 ? d.kind == ObjectKind::landmark : d.kind == ObjectKind::mover && some.empty())
+                if (k % 2 == 0 ? d.kind == ObjectKind::landmark : d.kind == ObjectKind::mover)
                     some.push_back(d);
             seen = some;
             for (JointFilter* filter : {&ekf, &scalable}) {

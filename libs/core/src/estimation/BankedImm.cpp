@@ -1,6 +1,9 @@
 #include "slamot/core/estimation/BankedImm.h"
 
+#include <algorithm>
+
 #include "slamot/core/estimation/RangeBearingUpdate.h"
+#include "slamot/core/estimation/RobotTargetView.h"
 
 namespace slamot {
 namespace {
@@ -59,7 +62,7 @@ void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                        std::vector<Innovation>& innovations) {
     joint_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, certain_);
     updateByLandmarks(seen, known, innovations);
-    for (const auto& sight : known.targets) updateByTarget(seen, sight, innovations[sight.detection]);
+    updateByTargets(seen, known, innovations);
     for (auto& [target, bank] : targets_) bank.synchronise(marginal(target));
 }
 
@@ -77,26 +80,51 @@ void BankedImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObject
     joint_->mode(0).update(batch_);
 }
 
-void BankedImm::updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
-                               Innovation& innovation) {
-    JointMode& joint = joint_->mode(0);
+void BankedImm::updateByTargets(const RangeBearingSet& seen, const KnownObjects& known,
+                                std::vector<Innovation>& innovations) {
+    batch_.clear();
+    for (const auto& sight : known.targets) {
+        const bool again = std::any_of(batch_.begin(), batch_.end(), [&](const LinearMeasurement& m) {
+            return m.terms[1].block == sight.block;
+        });
+        if (again) updateJoint();
+        measure(seen, sight, innovations[sight.detection]);
+    }
+    updateJoint();
+}
+
+void BankedImm::measure(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
+                        Innovation& innovation) {
+    const JointMode& joint = joint_->mode(0);
     TargetBank& bank = targets_[indexOf(sight.block)].second;
     const RangeBearingDetection& detection = seen.detections[sight.detection];
     const Pose2& sensor = seen.sensors[detection.sensor].pose;
-    const Consistency consistency = joint_->consistency();
 
     bank.synchronise(marginal(sight.block));
-    bank.linearise(joint, sight.block, detection, sensor, consistency, linear_);
+    const RobotGivenTarget robot(joint, sight.block);
+    bank.linearise(robot, detection, sensor, joint_->consistency(), linear_);
     const Matrix2 more_noise = settings().gate.judge(bank.probabilities(), linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
-    bank.update(joint, sight.block, linear_, consistency);
+    bank.update(robot, linear_, joint_->consistency());
 
-    batch_.assign(1, linearise(joint, sight.block, detection, sensor, consistency).measurement);
-    batch_.front().R += more_noise;
-    joint.update(batch_);
-    bank.takeSnapshot(marginal(sight.block));
-    bank.guard(marginal(sight.block));
+    batch_.push_back(linearise(joint, sight.block, detection, sensor, joint_->consistency()).measurement);
+    batch_.back().R += more_noise;
+    // The bank has made this measurement's change of the joint block itself, and no other's.
+    RobotTargetView own = robot.with(marginal(sight.block));
+    own.update(batch_.back(), joint_->consistency());
+    bank.takeSnapshot(own.target());
+}
+
+void BankedImm::updateJoint() {
+    joint_->mode(0).update(batch_);
+    for (const LinearMeasurement& measurement : batch_) {
+        const BlockId target = measurement.terms[1].block;
+        TargetBank& bank = targets_[indexOf(target)].second;
+        bank.synchronise(marginal(target));
+        bank.guard(marginal(target));
+    }
+    batch_.clear();
 }
 
 BlockId BankedImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {

@@ -1,4 +1,4 @@
-#include "RobotTargetView.h"
+#include "slamot/core/estimation/RobotTargetView.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

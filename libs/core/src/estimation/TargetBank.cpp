@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "RobotTargetView.h"
 #include "slamot/core/estimation/CommonConditional.h"
+#include "slamot/core/estimation/RobotTargetView.h"
 
 namespace slamot {
 namespace {
@@ -134,18 +134,17 @@ BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<
             clipped(symmetric(after.covariance - Phi * before.covariance * Phi.transpose()))};
 }
 
-void TargetBank::linearise(const JointView& joint, BlockId target, const RangeBearingDetection& detection,
+void TargetBank::linearise(const RobotGivenTarget& robot, const RangeBearingDetection& detection,
                            const Pose2& sensor, Consistency consistency,
                            std::vector<Linearisation>& by_mode) const {
-    const RobotGivenTarget robot(joint, target);
     by_mode.clear();
     for (const TargetGaussian& mode : modes_)
-        by_mode.push_back(slamot::linearise(robot.with(mode), target, detection, sensor, consistency));
+        by_mode.push_back(
+            slamot::linearise(robot.with(mode), robot.target(), detection, sensor, consistency));
 }
 
-void TargetBank::update(const JointView& joint, BlockId target, const std::vector<Linearisation>& by_mode,
+void TargetBank::update(const RobotGivenTarget& robot, const std::vector<Linearisation>& by_mode,
                         Consistency consistency) {
-    const RobotGivenTarget robot(joint, target);
     Eigen::VectorXd log_mu(mu_.size());
     for (std::size_t j = 0; j < modes_.size(); ++j) {
         RobotTargetView view = robot.with(modes_[j]);

@@ -37,8 +37,12 @@ class BankedImm : public ModalState {
     std::size_t indexOf(BlockId target) const;
     void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
                            std::vector<Innovation>& innovations);
-    void updateByTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
-                        Innovation& innovation);
+    void updateByTargets(const RangeBearingSet& seen, const KnownObjects& known,
+                         std::vector<Innovation>& innovations);
+    /// A mover's bank takes its detection in; the joint state's part joins the batch.
+    void measure(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
+    /// By the batch of movers, which is empty then.
+    void updateJoint();
 
     std::unique_ptr<JointBank> joint_;
     std::vector<std::pair<BlockId, TargetBank>> targets_;

@@ -23,6 +23,8 @@ struct BlockPrediction {
 /// mapped to 0.
 Matrix6 covarianceMap(const Matrix6& from, const Matrix6& to);
 
+class RobotGivenTarget;
+
 class TargetBank {
   public:
     /// Modes of probability mu, each with its Gaussian; the snapshot is of what they make together.
@@ -36,10 +38,10 @@ class TargetBank {
     BlockPrediction predict(const Eigen::MatrixXd& p, const std::vector<TargetModel>& models, double dt,
                             const Vector6& joint_mean);
     /// Step 3: the detection as each mode sees it, with the robot where it is given that mode...
-    void linearise(const JointView& joint, BlockId target, const RangeBearingDetection& detection,
-                   const Pose2& sensor, Consistency consistency, std::vector<Linearisation>& by_mode) const;
+    void linearise(const RobotGivenTarget& robot, const RangeBearingDetection& detection, const Pose2& sensor,
+                   Consistency consistency, std::vector<Linearisation>& by_mode) const;
     /// ... and every mode's update by it.
-    void update(const JointView& joint, BlockId target, const std::vector<Linearisation>& by_mode,
+    void update(const RobotGivenTarget& robot, const std::vector<Linearisation>& by_mode,
                 Consistency consistency);
     /// Step 4: a bank that has parted from the joint state is led back.
     void guard(const TargetGaussian& joint);

@@ -34,6 +34,7 @@ class RobotTargetView : public JointView {
 class RobotGivenTarget {
   public:
     RobotGivenTarget(const JointView& joint, BlockId target);
+    BlockId target() const { return target_; }
     /// Robot and mover when the mover's distribution is this one.
     RobotTargetView with(const TargetGaussian& mover) const;
 
