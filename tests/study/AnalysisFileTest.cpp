@@ -1,12 +1,13 @@
-#include "slamot/study/AnalysisFile.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
+#include "slamot/study/AnalysisFile.h"
 #include "study/Builders.h"
 #include "support/Expect.h"
+#include "support/TemporaryFolder.h"
 
 namespace slamot::study {
 namespace {
@@ -118,13 +119,16 @@ const char* const in_check = "[check.c]\nsource = paper1\nconfig = invariant\nin
 INSTANTIATE_TEST_SUITE_P(
     Tables, Refused,
     testing::Values(
-        Mistake{"[table.t]\nfigures = robot.position.rmse\n", "demo.ini:1: [table.t] lacks 'kind', expected one of means"},
-        Mistake{"[table.t]\nkind = meens\n", "demo.ini:2: kind = 'meens' in [table.t], expected one of means"},
+        Mistake{"[table.t]\nfigures = robot.position.rmse\n",
+                "demo.ini:1: [table.t] lacks 'kind', expected one of means"},
+        Mistake{"[table.t]\nkind = meens\n",
+                "demo.ini:2: kind = 'meens' in [table.t], expected one of means"},
         Mistake{"[table.t]\nkind = means\n", "demo.ini:1: [table.t] lacks 'figures'"},
         Mistake{"[table.t]\nkind = means\nfigure = robot.position.rmse\n",
                 "demo.ini:3: unknown key 'figure' in [table.t]; did you mean 'figures'?"},
         Mistake{"[table.t]\nkind = means\nfigures = robot.position.rsme\n",
-                "demo.ini:3: 'robot.position.rsme' is no figure of a run, expected a number of summary.json's metrics or "
+                "demo.ini:3: 'robot.position.rsme' is no figure of a run, expected a number of "
+                "summary.json's metrics or "
                 "cost.<...>; did you mean 'robot.position.rmse'? in [table.t]"},
         Mistake{"[table.t]\nkind = means\nfigures = cost.step_ms_mean, cost.step_ms_mean\n", "none twice"},
         Mistake{"[table.t]\nkind = means\nfigures = cost.step_ms_mean,\n", "names separated by commas"},
@@ -132,9 +136,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "demo.ini:4: 'paper2' in [table.t] is no source; did you mean 'paper1'?"},
         Mistake{"[table.t]\nkind = means\nfigures = cost.wall_s\nconfigs = imm\n",
                 "'imm' in [table.t] is no config, expected classic | invariant"},
-        Mistake{"[table.t]\nkind = means\nfigures = cost.wall_s\nbaseline = classic\n", "unknown key 'baseline'"},
+        Mistake{"[table.t]\nkind = means\nfigures = cost.wall_s\nbaseline = classic\n",
+                "unknown key 'baseline'"},
         Mistake{"[table.t]\nkind = paired\nfigures = cost.wall_s\n", "[table.t] lacks 'baseline'"},
-        Mistake{"[table.t]\nkind = paired\nfigures = cost.wall_s\nbaseline = clasic\n", "did you mean 'classic'?"},
+        Mistake{"[table.t]\nkind = paired\nfigures = cost.wall_s\nbaseline = clasic\n",
+                "did you mean 'classic'?"},
         Mistake{"[table.t]\nkind = consistency\nseries = landmark_nees\n", "is no series of [study]"},
         Mistake{"[table.t]\nkind = consistency\nseries = robot_error\n", "has no chi-square band"},
         Mistake{"[table.t]\nkind = divergence\nfigures = cost.wall_s\n", "unknown key 'figures'"},
@@ -147,8 +153,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[figure.f]\nkind = over_time\nfigures = cost.wall_s\n", "unknown key 'figures'"},
         Mistake{"[figure.f]\nkind = over_time\nseries = robot_eror\n", "did you mean 'robot_error'?"},
         Mistake{"[figure.f]\nkind = bands\nseries = robot_error\n", "has no chi-square band"},
-        Mistake{"[figure.f]\nkind = over_time\nseries = robot_error\nlogarithmic = z\n", "expected x | y | x, y | none"},
-        Mistake{"[figure.f]\nkind = over_time\nseries = robot_error\nstatistic = both\n", "expected one of mean | median"},
+        Mistake{"[figure.f]\nkind = over_time\nseries = robot_error\nlogarithmic = z\n",
+                "expected x | y | x, y | none"},
+        Mistake{"[figure.f]\nkind = over_time\nseries = robot_error\nstatistic = both\n",
+                "expected one of mean | median"},
         Mistake{"[figure.f]\nkind = over_parameter\nfigures = cost.wall_s\n", "[figure.f] lacks 'parameter'"},
         Mistake{"[figure.f]\nkind = over_parameter\nfigures = cost.wall_s\nparameter = sensor.sdt\n",
                 "did you mean 'sensor.std'?"},
@@ -158,21 +166,24 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Names, Refused,
-    testing::Values(Mistake{"[labels]\nclasic = textbook EKF\n", "demo.ini:2: 'clasic' in [labels] is no figure"},
-                    Mistake{"[labels]\nrobot.position.rmse = RMSE\n", "'robot.position.rmse' in [labels] is no figure"},
-                    Mistake{"[labels]\nclassic =\n", "the label of 'classic' is empty"},
-                    Mistake{"[units]\nrobot.heading.rmse = deg\n", "in [units] is no figure of a table"},
-                    Mistake{"[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = degrees\n",
-                            "'degrees' in [units] is no unit"}));
+    testing::Values(
+        Mistake{"[labels]\nclasic = textbook EKF\n", "demo.ini:2: 'clasic' in [labels] is no figure"},
+        Mistake{"[labels]\nrobot.position.rmse = RMSE\n", "'robot.position.rmse' in [labels] is no figure"},
+        Mistake{"[labels]\nclassic =\n", "the label of 'classic' is empty"},
+        Mistake{"[units]\nrobot.heading.rmse = deg\n", "in [units] is no figure of a table"},
+        Mistake{
+            "[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = degrees\n",
+            "'degrees' in [units] is no unit"}));
 
 TEST(AnalysisFile, ChecksAreRefusedWithFileAndLine) {
-    const std::string start = in_check, figure = "figure = robot.position.rmse\n", mean = "statistic = mean\n",
-                      where = "where = ekf.gate=3; sensor.std=0.1\n";
+    const std::string start = in_check, figure = "figure = robot.position.rmse\n",
+                      mean = "statistic = mean\n", where = "where = ekf.gate=3; sensor.std=0.1\n";
     const std::vector<std::pair<std::string, std::string>> mistakes = {
         {start + figure, "lacks 'statistic'"},
         {start + mean + where, "lacks 'figure'"},
         {start + mean + figure, "is about 2 points of the grid, expected one: where = sensor.std = value"},
-        {start + mean + figure + "where = ekf.gate=4; sensor.std=0.1\n", "'4' in [check.c] is no value of ekf.gate"},
+        {start + mean + figure + "where = ekf.gate=4; sensor.std=0.1\n",
+         "'4' in [check.c] is no value of ekf.gate"},
         {start + mean + figure + "where = gate=3\n", "'gate' in [check.c] is no address of the grid"},
         {start + mean + figure + "where = ekf.gate\n", "expected address=value"},
         {start + mean + figure + where + "against = classic\n", "unknown key 'against'"},
@@ -197,18 +208,45 @@ TEST(AnalysisFile, AConfigThatDoesNotRunOnTheSourceCannotBeChecked) {
 TEST(AnalysisFile, KnowsEveryTableAndFigureByName) {
     const Analysis a = analysisOf("[table.errors]\nkind = divergence\n");
     EXPECT_EQ(a.table("errors").kind, TableKind::divergence);
-    EXPECT_THAT(messageOf<ConfigError>([&] { a.table("erors"); }), HasSubstr("no table 'erors'; did you mean 'errors'?"));
+    EXPECT_THAT(messageOf<ConfigError>([&] { a.table("erors"); }),
+                HasSubstr("no table 'erors'; did you mean 'errors'?"));
     EXPECT_THAT(messageOf<ConfigError>([&] { a.plot("x"); }), HasSubstr("no figure 'x'"));
 }
 
 TEST(AnalysisFile, EveryNumberOfTheMetricsIsAFigure) {
     // Some from each part of summary.json's metrics, by doc/metrics.md.
     for (const char* name :
-         {"robot.heading.median", "ate.position.rmse", "rpe.heading.maximum", "robot_nees.coverage", "landmarks.missing",
-          "landmarks.nees.average", "landmark_set.ospa.cardinality", "track_set.gospa.missed_count",
-          "targets.seen.relative_position.median", "targets.by_target.3.position.rmse", "targets.all.nees.inside",
+         {"robot.heading.median", "ate.position.rmse", "rpe.heading.maximum", "robot_nees.coverage",
+          "landmarks.missing", "landmarks.nees.average", "landmark_set.ospa.cardinality",
+          "track_set.gospa.missed_count", "targets.seen.relative_position.median",
+          "targets.by_target.3.position.rmse", "targets.all.nees.inside",
           "nis.landmarks.landmark.mean_per_degree", "matching.matched", "counts.landmarks", "cost.memory_mb"})
         EXPECT_NO_THROW(analysisOf(std::string("[table.t]\nkind = means\nfigures = ") + name)) << name;
+}
+
+/// The INI blocks of a page, as one file beside the project's studies.
+std::string exampleOf(const std::string& page) {
+    std::ifstream in(SLAMOT_SOURCE_DIR "/doc/" + page);
+    std::string example;
+    bool inside = false;
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind("```", 0) == 0)
+            inside = line == "```ini";
+        else if (inside)
+            example += line + '\n';
+    }
+    for (std::size_t at = 0; (at = example.find("../", at)) != std::string::npos;)
+        example.replace(at, 3, SLAMOT_SOURCE_DIR "/config/");
+    return example;
+}
+
+TEST(AnalysisFile, TheExamplesOfTheDocsAreRight) {
+    const slamot::test::TemporaryFolder folder;
+    for (const char* page : {"studies.md", "studies_analysis.md"}) {
+        const std::string file = folder.write("example.ini", exampleOf(page));
+        EXPECT_NO_THROW(validateAnalysis(loadStudy(file))) << page;
+    }
+    EXPECT_EQ(readAnalysis(loadStudy(folder.path("example.ini"))).tables.size(), 6u) << "one of each kind";
 }
 
 TEST(AnalysisFile, TheProjectsOwnStudiesAreRight) {

@@ -1,9 +1,8 @@
-#include "slamot/study/Analysis.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slamot/study/Analysis.h"
 #include "study/Builders.h"
 
 namespace slamot::study {
@@ -64,10 +63,12 @@ TEST(StatisticOf, MedianIntervalIsTheShortestThatHolds95Percent) {
 }
 
 TEST(Scaled, ScalesEveryNumberButTheCount) {
-    const Statistic s = scaled(statisticOf({1, 2, 3, 4, 5, 6}), 10), direct = statisticOf({10, 20, 30, 40, 50, 60});
+    const Statistic s = scaled(statisticOf({1, 2, 3, 4, 5, 6}), 10),
+                    direct = statisticOf({10, 20, 30, 40, 50, 60});
     EXPECT_EQ(s.count, 6);
-    for (const auto value : {&Statistic::mean, &Statistic::half_width, &Statistic::deviation, &Statistic::median,
-                             &Statistic::median_low, &Statistic::median_high, &Statistic::minimum, &Statistic::maximum})
+    for (const auto value :
+         {&Statistic::mean, &Statistic::half_width, &Statistic::deviation, &Statistic::median,
+          &Statistic::median_low, &Statistic::median_high, &Statistic::minimum, &Statistic::maximum})
         EXPECT_DOUBLE_EQ(s.*value, direct.*value);
 }
 
@@ -98,8 +99,9 @@ TEST(CellsOf, RowsThatDifferInTheReplicateOnly) {
 }
 
 TEST(Compare, PairsByWorld) {
-    const auto rows = rowsOf("paper1", "classic", {2, 2, 1, 0, 5}) + rowsOf("paper1", "invariant", {1, 2, 3, 4}) +
-                      std::vector<Row>{failedRow("paper1", "invariant", 5), rowOf("paper1", "invariant", 6, 9)};
+    const auto rows =
+        rowsOf("paper1", "classic", {2, 2, 1, 0, 5}) + rowsOf("paper1", "invariant", {1, 2, 3, 4}) +
+        std::vector<Row>{failedRow("paper1", "invariant", 5), rowOf("paper1", "invariant", 6, 9)};
     const auto cells = cellsOf(rows);
     const Paired pair = compare(cells[1], cells[0], rmse);
     EXPECT_EQ(pair.difference.count, 4) << "world 5 failed, world 6 is not in both";
@@ -152,22 +154,23 @@ TEST(ConsistencyOf, MeanOverRunsAgainstTheBandOfItsDegrees) {
 
 TEST(ConsistencyOf, AbsentWithTheReason) {
     auto rows = rowsOf("paper1", "classic", {1});
-    EXPECT_EQ(consistencyOf(cellsOf(rows).front(), "robot_nees").whyAbsent(), "no run has a series 'robot_nees'");
+    EXPECT_EQ(consistencyOf(cellsOf(rows).front(), "robot_nees").whyAbsent(),
+              "no run has a series 'robot_nees'");
     rows[0].series["robot_error"] = {{0}, {1}, {}};
     EXPECT_EQ(consistencyOf(cellsOf(rows).front(), "robot_error").whyAbsent(),
               "series 'robot_error' has no dimensions, expected one of NEES");
 }
 
 TEST(Rank, TiesShareAndFailedRunsAreLast) {
-    const std::vector<Row> rows = {
-        // world 1: b first, a and c share 2 and 3
-        rowOf("s", "a", 1, 5), rowOf("s", "b", 1, 1), rowOf("s", "c", 1, 5),
-        // world 2: c failed
-        rowOf("s", "a", 2, 2), rowOf("s", "b", 2, 3), failedRow("s", "c", 2),
-        // world 3: c is not there; world 4: all failed; neither counts
-        rowOf("s", "a", 3, 1), rowOf("s", "b", 3, 2), failedRow("s", "a", 4), failedRow("s", "b", 4), failedRow("s", "c", 4),
-        // a source not asked for
-        rowOf("t", "a", 1, 9), rowOf("t", "b", 1, 8), rowOf("t", "c", 1, 7)};
+    const std::vector<Row> rows = {// world 1: b first, a and c share 2 and 3
+                                   rowOf("s", "a", 1, 5), rowOf("s", "b", 1, 1), rowOf("s", "c", 1, 5),
+                                   // world 2: c failed
+                                   rowOf("s", "a", 2, 2), rowOf("s", "b", 2, 3), failedRow("s", "c", 2),
+                                   // world 3: c is not there; world 4: all failed; neither counts
+                                   rowOf("s", "a", 3, 1), rowOf("s", "b", 3, 2), failedRow("s", "a", 4),
+                                   failedRow("s", "b", 4), failedRow("s", "c", 4),
+                                   // a source not asked for
+                                   rowOf("t", "a", 1, 9), rowOf("t", "b", 1, 8), rowOf("t", "c", 1, 7)};
     const auto ranked = rank(rows, {"s"}, {"c", "a", "b"}, rmse);
     ASSERT_EQ(ranked.size(), 3u);
     EXPECT_EQ(ranked[0].variant, "c");
@@ -180,7 +183,8 @@ TEST(Rank, TiesShareAndFailedRunsAreLast) {
 TEST(Rank, AWorldWhereOneHasNoSuchFigureDoesNotCount) {
     Row without = rowOf("s", "b", 1, 0);
     without.metrics.clear();
-    for (const Ranked& r : rank({rowOf("s", "a", 1, 5), without}, {"s"}, {"a", "b"}, rmse)) EXPECT_EQ(r.rank.count, 0);
+    for (const Ranked& r : rank({rowOf("s", "a", 1, 5), without}, {"s"}, {"a", "b"}, rmse))
+        EXPECT_EQ(r.rank.count, 0);
 }
 
 }  // namespace

@@ -42,9 +42,11 @@ inline Row failedRow(const std::string& source, const std::string& variant, int 
 }
 
 /// Rows of one source and config, replicates 1, 2, ...
-inline std::vector<Row> rowsOf(const std::string& source, const std::string& variant, const std::vector<double>& rmse) {
+inline std::vector<Row> rowsOf(const std::string& source, const std::string& variant,
+                               const std::vector<double>& rmse) {
     std::vector<Row> rows;
-    for (const double value : rmse) rows.push_back(rowOf(source, variant, static_cast<int>(rows.size()) + 1, value));
+    for (const double value : rmse)
+        rows.push_back(rowOf(source, variant, static_cast<int>(rows.size()) + 1, value));
     return rows;
 }
 

@@ -1,10 +1,9 @@
-#include "slamot/study/Checks.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slamot/study/Checks.h"
 #include "study/Builders.h"
 
 namespace slamot::study {
@@ -35,7 +34,8 @@ std::string checkText(const std::string& rest) {
     return "[check.c]\nsource = paper1\nconfig = invariant\n" + rest;
 }
 
-CheckResult resultOf(const std::string& rest, const std::vector<Row>& rows, int replicates = 3, bool short_form = false) {
+CheckResult resultOf(const std::string& rest, const std::vector<Row>& rows, int replicates = 3,
+                     bool short_form = false) {
     const StudyFile study = studyOf(checkText(rest));
     return runChecks(readAnalysis(study), planOf(study, replicates), rows, short_form).results.at(0);
 }
@@ -57,8 +57,9 @@ TEST(Checks, EveryStatisticOfAFigure) {
         {"median_difference", -1, "against = classic\n"},
         {"smaller", 2.0 / 3, "against = classic\n"}};
     for (const auto& [statistic, expected, more] : cases) {
-        const CheckResult r =
-            resultOf("figure = robot.position.rmse\ninterval = -inf, inf\nstatistic = " + statistic + "\n" + more, threeWorlds());
+        const CheckResult r = resultOf(
+            "figure = robot.position.rmse\ninterval = -inf, inf\nstatistic = " + statistic + "\n" + more,
+            threeWorlds());
         EXPECT_EQ(r.state, CheckState::passed) << statistic << ": " << r.reason;
         EXPECT_DOUBLE_EQ(r.value, expected) << statistic;
     }
@@ -67,11 +68,14 @@ TEST(Checks, EveryStatisticOfAFigure) {
 TEST(Checks, StatisticsOfNees) {
     auto rows = threeWorlds();
     for (Row& row : rows)
-        if (row.variant == "invariant") row.series["robot_nees"] = {{0, 1, 2, 3, 4}, {3, 3, 60, 3, 0.01}, {3, 3, 3, 3, 3}};
-    for (const auto& [statistic, expected] :
-         std::vector<std::pair<std::string, double>>{{"anees", 69.01 / 5}, {"inside", 0.6}, {"above", 0.2}, {"below", 0.2}})
-        EXPECT_NEAR(resultOf("series = robot_nees\ninterval = 0, 1\nstatistic = " + statistic + "\n", rows).value, expected,
-                    1e-12)  // sums of five numbers
+        if (row.variant == "invariant")
+            row.series["robot_nees"] = {{0, 1, 2, 3, 4}, {3, 3, 60, 3, 0.01}, {3, 3, 3, 3, 3}};
+    for (const auto& [statistic, expected] : std::vector<std::pair<std::string, double>>{
+             {"anees", 69.01 / 5}, {"inside", 0.6}, {"above", 0.2}, {"below", 0.2}})
+        EXPECT_NEAR(
+            resultOf("series = robot_nees\ninterval = 0, 1\nstatistic = " + statistic + "\n", rows).value,
+            expected,
+            1e-12)  // sums of five numbers
             << statistic;
     const CheckResult absent =
         resultOf("series = robot_nees\ninterval = 0, 1\nstatistic = inside\n", threeWorlds());
@@ -88,19 +92,24 @@ TEST(Checks, TheEndsBelongToTheInterval) {
 }
 
 TEST(Checks, MissingRowsFail) {
-    const CheckResult r = resultOf("figure = robot.position.rmse\nstatistic = mean\ninterval = 0, 9\n", threeWorlds(), 5);
+    const CheckResult r =
+        resultOf("figure = robot.position.rmse\nstatistic = mean\ninterval = 0, 9\n", threeWorlds(), 5);
     EXPECT_EQ(r.state, CheckState::failed);
     EXPECT_EQ(r.reason, "2 of 5 runs of 'invariant' are missing");
     EXPECT_TRUE(std::isnan(r.value));
     auto rows = threeWorlds();
     rows.erase(rows.begin());
-    EXPECT_EQ(resultOf("figure = robot.position.rmse\nstatistic = ratio\nagainst = classic\ninterval = 0, 9\n", rows).reason,
-              "1 of 3 runs of 'classic' are missing");
+    EXPECT_EQ(
+        resultOf("figure = robot.position.rmse\nstatistic = ratio\nagainst = classic\ninterval = 0, 9\n",
+                 rows)
+            .reason,
+        "1 of 3 runs of 'classic' are missing");
 }
 
 TEST(Checks, RowsBeyondThePlanDoNotCount) {
-    EXPECT_EQ(resultOf("figure = robot.position.rmse\nstatistic = mean\ninterval = 2, 2\n", threeWorlds(), 2).state,
-              CheckState::passed)
+    EXPECT_EQ(
+        resultOf("figure = robot.position.rmse\nstatistic = mean\ninterval = 2, 2\n", threeWorlds(), 2).state,
+        CheckState::passed)
         << "the mean of 1 and 3";
 }
 
@@ -110,8 +119,9 @@ TEST(Checks, FailedRunsFailUnlessAllowed) {
     const std::string mean = "figure = robot.position.rmse\nstatistic = mean\ninterval = 0, 9\n";
     const CheckResult strict = resultOf(mean, rows);
     EXPECT_EQ(strict.state, CheckState::failed);
-    EXPECT_EQ(strict.reason,
-              "1 of 3 runs of 'invariant' are without the figure, the first since: the covariance is not definite");
+    EXPECT_EQ(
+        strict.reason,
+        "1 of 3 runs of 'invariant' are without the figure, the first since: the covariance is not definite");
     EXPECT_EQ(resultOf(mean + "missing = 0.3\n", rows).state, CheckState::failed);
     EXPECT_EQ(resultOf(mean + "missing = 0.34\n", rows).state, CheckState::passed);
     const CheckResult rate = resultOf("statistic = rate\ninterval = 0, 0.3\n", rows);
@@ -159,12 +169,14 @@ TEST(Checks, ReportPassesWhenNoneFailedAndOneWasChecked) {
 }
 
 TEST(Checks, TableSaysWhatWasChecked) {
-    const StudyFile study = studyOf(checkText(
-        "figure = robot.position.rmse\nstatistic = ratio\nagainst = classic\ninterval = 0, 0.65\nabout = the aim\n"
-        "[labels]\nrobot.position.rmse = RMSE\n"));
+    const StudyFile study =
+        studyOf(checkText("figure = robot.position.rmse\nstatistic = ratio\nagainst = classic\ninterval = 0, "
+                          "0.65\nabout = the aim\n"
+                          "[labels]\nrobot.position.rmse = RMSE\n"));
     const auto report = runChecks(readAnalysis(study), planOf(study, 3), threeWorlds(), false);
     const std::string text = toMarkdown(checkTable(report));
-    EXPECT_THAT(text, HasSubstr("| c     | mean ratio of RMSE, paper1, invariant to classic | 2.0833 |    0 | 0.65 | FAILED | the aim |"));
+    EXPECT_THAT(text, HasSubstr("| c     | mean ratio of RMSE, paper1, invariant to classic | 2.0833 |    0 "
+                                "| 0.65 | FAILED | the aim |"));
     EXPECT_EQ(toCsv(checkTable(report)),
               "check,what,value,from,to,result,about,reason\nc,\"mean ratio of RMSE, paper1, invariant to "
               "classic\",2.0833333333333335,0,0.65,FAILED,the aim,\n");

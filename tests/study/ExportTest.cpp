@@ -1,5 +1,3 @@
-#include "slamot/study/Export.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "slamot/rawlog/CsvTable.h"
 #include "slamot/report/FigureWriter.h"
+#include "slamot/study/Export.h"
 #include "study/Builders.h"
 #include "support/TemporaryFolder.h"
 
@@ -102,7 +101,8 @@ TEST_F(Export, PairsInBothDirections) {
 }
 
 TEST_F(Export, DivergenceConsistencyAndRanks) {
-    const auto divergence = read("divergence.csv"), steps = read("consistency.csv"), ranks = read("ranks.csv");
+    const auto divergence = read("divergence.csv"), steps = read("consistency.csv"),
+               ranks = read("ranks.csv");
     ASSERT_EQ(divergence.size(), 2u);
     EXPECT_EQ(std::stod(divergence[1].at("rate")), 1.0 / 3);
     ASSERT_EQ(steps.size(), 4u) << "two steps of two configs";

@@ -1,5 +1,3 @@
-#include "slamot/study/Figures.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "../../libs/study/src/OverTime.h"
 #include "slamot/report/Figure.h"
+#include "slamot/study/Figures.h"
 #include "study/Builders.h"
 
 namespace slamot::study {
@@ -95,7 +94,8 @@ title = Errors
 
 TEST(OverParameter, ALogarithmicAxisHasNoIntervalBelowZero) {
     const auto [study, rows] = gridStudy(
-        "[figure.f]\nkind = over_parameter\nfigures = robot.position.rmse\nparameter = sensor.std\nlogarithmic = y\n");
+        "[figure.f]\nkind = over_parameter\nfigures = robot.position.rmse\nparameter = "
+        "sensor.std\nlogarithmic = y\n");
     const report::Panel panel = figureOf(study, rows).panels.at(0);
     EXPECT_TRUE(panel.y.logarithmic);
     EXPECT_FALSE(panel.x.logarithmic);
@@ -108,7 +108,8 @@ TEST(OverParameter, PointsOfTheScenariosGridArePanelsForAParameterOfTheConfigs) 
     const report::Figure figure = figureOf(study, rows);
     ASSERT_EQ(figure.panels.size(), 2u);
     EXPECT_EQ(figure.panels[0].title, "sensor.std = 0.2");
-    EXPECT_THAT(linesOf(figure.panels[1]).at("classic"), ElementsAre(Eigen::Vector2d(3, 3), Eigen::Vector2d(5, 5)));
+    EXPECT_THAT(linesOf(figure.panels[1]).at("classic"),
+                ElementsAre(Eigen::Vector2d(3, 3), Eigen::Vector2d(5, 5)));
 }
 
 TEST(Against, OnePanelWithAPointForEachCell) {
@@ -129,7 +130,8 @@ TEST(Against, OnePanelWithAPointForEachCell) {
 TEST(OverTime, MeanAndMiddleOfTheRunsInEachSource) {
     auto rows = rowsOf("paper1", "classic", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
     for (Row& row : rows) row.series["robot_error"] = {{0, 1}, {0, 1.0 * row.replicate}, {}};
-    const report::Figure figure = figureOf(studyOf("[figure.f]\nkind = over_time\nseries = robot_error\n"), rows);
+    const report::Figure figure =
+        figureOf(studyOf("[figure.f]\nkind = over_time\nseries = robot_error\n"), rows);
     ASSERT_EQ(figure.panels.size(), 1u) << "a source without runs has no panel";
     const report::Panel& panel = figure.panels[0];
     EXPECT_EQ(panel.title, "paper1");
@@ -145,7 +147,8 @@ TEST(Bands, MeanNeesWithTheBandAndWhatIsExpected) {
     auto rows = rowsOf("paper1", "classic", {0, 0});
     for (Row& row : rows) row.series["robot_nees"] = {{0, 1}, {1.0 * row.replicate, 9}, {3, 3}};
     const report::Panel panel =
-        figureOf(studyOf("[figure.f]\nkind = bands\nseries = robot_nees\nlogarithmic = y\n"), rows).panels.at(0);
+        figureOf(studyOf("[figure.f]\nkind = bands\nseries = robot_nees\nlogarithmic = y\n"), rows)
+            .panels.at(0);
     EXPECT_THAT(linesOf(panel).at("classic"), ElementsAre(Eigen::Vector2d(0, 1.5), Eigen::Vector2d(1, 9)));
     const report::Band* band = find<report::Band>(panel);
     ASSERT_TRUE(band);
@@ -172,7 +175,8 @@ Course courseOf(const std::vector<Series>& runs) {
 
 TEST(CourseOf, TakesTheRunsThatHaveATime) {
     const double nan = std::nan("");
-    const Course course = courseOf({{{0, 1, 2}, {1, 5, 3}, {}}, {{0, 1, 2}, {2, nan, 5}, {}}, {{0}, {6}, {}}});
+    const Course course =
+        courseOf({{{0, 1, 2}, {1, 5, 3}, {}}, {{0, 1, 2}, {2, nan, 5}, {}}, {{0}, {6}, {}}});
     EXPECT_EQ(course.interval, 0);
     ASSERT_EQ(course.steps.size(), 3u);
     EXPECT_EQ(course.steps[0].runs, 3);

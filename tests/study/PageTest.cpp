@@ -1,5 +1,3 @@
-#include "slamot/study/Page.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 
 #include "slamot/core/Version.h"
 #include "slamot/report/FigureWriter.h"
+#include "slamot/study/Page.h"
 #include "study/Builders.h"
 #include "support/Expect.h"
 #include "support/TemporaryFolder.h"
@@ -50,8 +49,9 @@ class Page : public testing::Test {
 };
 
 TEST_F(Page, FillsTablesAndStamp) {
-    write("# Title\n\n<!-- study demo table errors -->\nold\nolder\n<!-- end -->\n\nWords.\n"
-          "<!-- study demo stamp -->\n<!-- end -->\n<!-- study other table errors -->\nkept\n<!-- end -->\n");
+    write(
+        "# Title\n\n<!-- study demo table errors -->\nold\nolder\n<!-- end -->\n\nWords.\n"
+        "<!-- study demo stamp -->\n<!-- end -->\n<!-- study other table errors -->\nkept\n<!-- end -->\n");
     auto rows = rowsOf("paper1", "classic", {0.25});
     rows.push_back(failedRow("paper1", "invariant", 1));
     fill(rows);
@@ -62,13 +62,15 @@ TEST_F(Page, FillsTablesAndStamp) {
               "| classic   |    1 |               0.250 |\n"
               "| invariant |    1 |                   – |\n"
               "<!-- end -->\n\nWords.\n<!-- study demo stamp -->\n"
-              "Measured on 2026-01-31, Some CPU, 2 cores, slamot " + std::string(version) +
-              ", 2 runs (1 failed): `slamot study demo.ini --db demo.db`\n"
-              "<!-- end -->\n<!-- study other table errors -->\nkept\n<!-- end -->\n");
+              "Measured on 2026-01-31, Some CPU, 2 cores, slamot " +
+                  std::string(version) +
+                  ", 2 runs (1 failed): `slamot study demo.ini --db demo.db`\n"
+                  "<!-- end -->\n<!-- study other table errors -->\nkept\n<!-- end -->\n");
 }
 
 TEST_F(Page, FillingTwiceIsFillingOnce) {
-    write("<!-- study demo table errors -->\n<!-- end -->\n\n<!-- study demo stamp -->\n<!-- end -->\nlast\n");
+    write(
+        "<!-- study demo table errors -->\n<!-- end -->\n\n<!-- study demo stamp -->\n<!-- end -->\nlast\n");
     const auto rows = rowsOf("paper1", "classic", {0.25, 0.5});
     fill(rows);
     const std::string once = page();
@@ -102,10 +104,12 @@ TEST_F(Page, FillsChecks) {
 
 TEST_F(Page, RefusesWhatItCannotFill) {
     EXPECT_THAT(refusal("# No mark\n"), HasSubstr("page.md: has no mark of the study 'demo'"));
-    EXPECT_THAT(refusal("<!-- study other stamp -->\n<!-- end -->\n"), HasSubstr("has no mark of the study 'demo'"));
+    EXPECT_THAT(refusal("<!-- study other stamp -->\n<!-- end -->\n"),
+                HasSubstr("has no mark of the study 'demo'"));
     EXPECT_THAT(refusal("\n<!-- study demo table erors -->\n<!-- end -->\n"),
                 HasSubstr("page.md:2: the study has no table 'erors'; did you mean 'errors'?"));
-    EXPECT_THAT(refusal("<!-- study demo figure errors -->\n<!-- end -->\n"), HasSubstr("no figure 'errors'"));
+    EXPECT_THAT(refusal("<!-- study demo figure errors -->\n<!-- end -->\n"),
+                HasSubstr("no figure 'errors'"));
     EXPECT_THAT(refusal("<!-- study demo tabel errors -->\n<!-- end -->\n"),
                 HasSubstr("'tabel errors' is no mark, expected table NAME, figure NAME, checks or stamp"));
     EXPECT_THAT(refusal("<!-- study demo stamp -->\nno end\n"), HasSubstr("page.md:1:"));

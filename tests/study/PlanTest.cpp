@@ -142,6 +142,8 @@ TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | | 2\n", 8, "separated by |");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | 1\n", 8, "twice");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | one\n", 8, "noise_std = 'one'");
+    expect("[study]\n[log.l]\nfiles = *.rawlog\n" + config + "[grid.scenario]\nworld.landmarks = 1\n", 6,
+           "changes nothing");
     expect(begin + config + "[log.s]\nfiles = *.rawlog\n", 7, "have one name");
     expect(begin + config + "[log.l]\nimport = mrclam\n", 7, "has no 'files'");
     expect(begin + config + "[log.l]\nimport = mrklam\nfiles = *.rawlog\nfolder = .\n", 8,

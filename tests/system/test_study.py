@@ -240,6 +240,32 @@ class Study(SlamotTest):
         self.assertIn("job array 41", done.stdout)
         self.assertEqual(self.rows("a b.db"), self.serial())
 
+    def test_logs_are_imported_once_and_found_again(self):
+        self.write("sets/track/sensor.ini", "[sensor]\nrange_std = 0.1\nbearing_std_deg = 1\n[vehicle]\n"
+                                            "model = differential\n")
+        self.write("sets/track/odometry.csv", "t,v,omega\n" + "".join(f"{k / 10},1,0\n" for k in range(50)))
+        self.write("sets/track/observations.csv", "t,kind,id,range,bearing\n" + "".join(
+            f"{k / 10 + 0.05:.2f},landmark,3,{10 - 0.1 * k:.2f},0\n" for k in range(40)))
+        self.write("ekf.ini", "[run]\nestimator = ekf_slamot\n")
+        self.write("small.ini", "[study]\n[log.track]\nimport = csv\nfolder = track\nfiles = track.rawlog\n"
+                                "[config.a]\nfile = ekf.ini\n[config.b]\nfile = ekf.ini\n")
+        sets = {"SLAMOT_DATASETS": str(self.path("sets"))}
+        self.study("a.db", env=sets)
+        (imported,) = self.path("imported_logs").glob("track-*/track.rawlog")
+        made = imported.stat().st_mtime_ns
+        self.study("b.db", env=sets)
+        self.assertEqual(imported.stat().st_mtime_ns, made)
+        self.assertEqual(self.rows("a.db"), self.rows("b.db"))
+        self.assertEqual([row[8] for row in self.rows("a.db")], ["complete"] * 2)
+        # Other contents are another world.
+        file = self.path("sets/track/odometry.csv")
+        file.write_text(file.read_text().replace("1,0", "2,0"))
+        shutil.rmtree(imported.parent)
+        # A killed import leaves a folder that may not be taken for the logs.
+        (imported.parent.parent / (imported.parent.name + ".part")).mkdir()
+        self.study("a.db", env=sets)
+        self.assertEqual(len(self.rows("a.db")), 4)
+
     def test_list_shows_worlds_and_keys_and_runs_nothing(self):
         listed = self.study("a.db", "--list", "--short").stdout
         self.assertIn("4 worlds, 10 runs", listed)

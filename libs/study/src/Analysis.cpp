@@ -38,8 +38,8 @@ std::vector<Cell> cellsOf(const std::vector<Row>& rows) {
     std::vector<Cell> cells;
     std::map<std::tuple<std::string, GridPoint, std::string, GridPoint>, std::size_t> places;
     for (const Row& row : rows) {
-        const auto [place, is_new] = places.try_emplace(
-            {row.source, row.scenario_point, row.variant, row.config_point}, cells.size());
+        const auto [place, is_new] =
+            places.try_emplace({row.source, row.scenario_point, row.variant, row.config_point}, cells.size());
         if (is_new) cells.push_back({row.source, row.variant, row.scenario_point, row.config_point, {}});
         cells[place->second].rows.push_back(&row);
     }
@@ -57,7 +57,8 @@ std::vector<double> figureOf(const Cell& cell, const std::string& figure) {
 
 Paired compare(const Cell& a, const Cell& b, const std::string& figure) {
     if (a.source != b.source || a.scenario_point != b.scenario_point)
-        throw std::invalid_argument(fmt::format("runs of '{}' and '{}' are not of the same worlds", a.source, b.source));
+        throw std::invalid_argument(
+            fmt::format("runs of '{}' and '{}' are not of the same worlds", a.source, b.source));
     std::map<int, double> value_of_b;  // by replicate
     for (const Row* row : b.rows) value_of_b[row->replicate] = figureOf(*row, figure);
 
@@ -129,8 +130,10 @@ std::vector<Ranked> rank(const std::vector<Row>& rows, const std::vector<std::st
     for (const auto& [world, by_variant] : worlds) {
         std::vector<double> values;
         for (const std::string& variant : variants)
-            if (const auto found = by_variant.find(variant); found != by_variant.end()) values.push_back(found->second);
-        const bool one_ended = std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+            if (const auto found = by_variant.find(variant); found != by_variant.end())
+                values.push_back(found->second);
+        const bool one_ended =
+            std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
         if (values.size() != variants.size() || !one_ended) continue;
         const std::vector<double> here = ranksOf(values);
         for (std::size_t i = 0; i < variants.size(); ++i) ranks[i].push_back(here[i]);

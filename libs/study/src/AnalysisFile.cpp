@@ -11,9 +11,14 @@ namespace slamot::study {
 namespace {
 
 /// From SI units and radians.
-const std::vector<std::pair<std::string, DisplayUnit>> unit_names = {
-    {"deg", {"deg", 57.295779513082320877}}, {"mrad", {"mrad", 1e3}}, {"mm", {"mm", 1e3}}, {"cm", {"cm", 100}},
-    {"km", {"km", 1e-3}},                    {"ms", {"ms", 1e3}},     {"us", {"us", 1e6}}, {"%", {"%", 100}}};
+const std::vector<std::pair<std::string, DisplayUnit>> unit_names = {{"deg", {"deg", 57.295779513082320877}},
+                                                                     {"mrad", {"mrad", 1e3}},
+                                                                     {"mm", {"mm", 1e3}},
+                                                                     {"cm", {"cm", 100}},
+                                                                     {"km", {"km", 1e-3}},
+                                                                     {"ms", {"ms", 1e3}},
+                                                                     {"us", {"us", 1e6}},
+                                                                     {"%", {"%", 100}}};
 
 /// Everything the file's tables, figures and checks show.
 std::vector<std::string> shownNames(const Analysis& analysis) {
@@ -101,7 +106,8 @@ std::vector<std::string> addressesOf(const std::vector<GridPoint>& grid) {
     std::vector<std::string> addresses;
     for (const GridPoint& point : grid)
         for (const auto& [address, value] : point)
-            if (std::find(addresses.begin(), addresses.end(), address) == addresses.end()) addresses.push_back(address);
+            if (std::find(addresses.begin(), addresses.end(), address) == addresses.end())
+                addresses.push_back(address);
     return addresses;
 }
 

@@ -9,13 +9,17 @@
 namespace slamot::study {
 namespace {
 
-const std::vector<std::pair<std::string, TableKind>> table_kinds = {
-    {"means", TableKind::means},           {"paired", TableKind::paired}, {"consistency", TableKind::consistency},
-    {"divergence", TableKind::divergence}, {"ranks", TableKind::ranks},   {"runs", TableKind::runs}};
-const std::vector<std::pair<std::string, PlotKind>> plot_kinds = {{"over_parameter", PlotKind::over_parameter},
-                                                                  {"against", PlotKind::against},
-                                                                  {"over_time", PlotKind::over_time},
-                                                                  {"bands", PlotKind::bands}};
+const std::vector<std::pair<std::string, TableKind>> table_kinds = {{"means", TableKind::means},
+                                                                    {"paired", TableKind::paired},
+                                                                    {"consistency", TableKind::consistency},
+                                                                    {"divergence", TableKind::divergence},
+                                                                    {"ranks", TableKind::ranks},
+                                                                    {"runs", TableKind::runs}};
+const std::vector<std::pair<std::string, PlotKind>> plot_kinds = {
+    {"over_parameter", PlotKind::over_parameter},
+    {"against", PlotKind::against},
+    {"over_time", PlotKind::over_time},
+    {"bands", PlotKind::bands}};
 const std::vector<std::pair<std::string, Shown>> shown_names = {
     {"mean", Shown::mean}, {"median", Shown::median}, {"both", Shown::both}};
 const std::string figure_list = "names of figures separated by commas";
@@ -44,7 +48,8 @@ ParameterTable describe(TableSpec& spec) {
         addWords(table, "figures", spec.figures, "Metrics or costs of a run, one column each.");
         table.choice("statistic", spec.shown, shown_names, "What is shown of many runs.");
     }
-    if (spec.kind == TableKind::paired) table.text("baseline", spec.baseline, "The config others are compared with.");
+    if (spec.kind == TableKind::paired)
+        table.text("baseline", spec.baseline, "The config others are compared with.");
     if (spec.kind != TableKind::divergence)
         table.integer("digits", spec.digits, Interval::between(1, 17), "Significant digits.");
     return table;
@@ -52,7 +57,10 @@ ParameterTable describe(TableSpec& spec) {
 
 Parameter logarithmicAxes(PlotSpec& spec) {
     const std::string expected = "x | y | x, y | none";
-    return {"logarithmic", "-", expected, "Logarithmic axes.",
+    return {"logarithmic",
+            "-",
+            expected,
+            "Logarithmic axes.",
             [&spec, expected](const std::string& text) -> std::optional<std::string> {
                 std::string axes = text;
                 axes.erase(std::remove(axes.begin(), axes.end(), ' '), axes.end());
@@ -62,8 +70,9 @@ Parameter logarithmicAxes(PlotSpec& spec) {
                 return std::nullopt;
             },
             [&spec] {
-                return std::string(spec.logarithmic_x ? spec.logarithmic_y ? "x, y" : "x"
-                                                      : spec.logarithmic_y ? "y" : "none");
+                return std::string(spec.logarithmic_x   ? spec.logarithmic_y ? "x, y" : "x"
+                                   : spec.logarithmic_y ? "y"
+                                                        : "none");
             }};
 }
 
@@ -82,7 +91,8 @@ ParameterTable describe(PlotSpec& spec) {
         addWords(table, "series", spec.series, "Series, one panel each.");
     }
     if (spec.kind != PlotKind::bands)
-        table.choice("statistic", spec.shown, {shown_names[0], shown_names[1]}, "What is shown of many runs.");
+        table.choice("statistic", spec.shown, {shown_names[0], shown_names[1]},
+                     "What is shown of many runs.");
     return table;
 }
 
@@ -94,15 +104,18 @@ void requireFigures(const StudyFile& study, const std::string& section, const st
     for (const std::string& figure : figures)
         if (!isFigure(figure)) {
             const auto near = nearestFigure(figure);
-            refuse(entry, section,
-                   fmt::format("'{}' is no figure of a run, expected a number of summary.json's metrics or cost.<...>{}",
-                               figure, near ? fmt::format("; did you mean '{}'?", *near) : ""));
+            refuse(
+                entry, section,
+                fmt::format(
+                    "'{}' is no figure of a run, expected a number of summary.json's metrics or cost.<...>{}",
+                    figure, near ? fmt::format("; did you mean '{}'?", *near) : ""));
         }
 }
 
 void requireSeries(const StudyFile& study, const std::string& section, const std::string& key,
                    const std::vector<std::string>& series) {
-    const Config::Entry& entry = requiredEntry(study.text, section, key, "names of series separated by commas");
+    const Config::Entry& entry =
+        requiredEntry(study.text, section, key, "names of series separated by commas");
     for (const std::string& name : series)
         requireWord(entry, section, name, study.parameters.series, "series of [study]");
 }
@@ -112,7 +125,8 @@ void requireNees(const StudyFile& study, const std::string& section, const std::
     requireSeries(study, section, key, series);
     const std::string ending = "_nees";
     for (const std::string& name : series)
-        if (name.size() < ending.size() || name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
+        if (name.size() < ending.size() ||
+            name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
             refuse(study.text.section(section).at(key), section,
                    fmt::format("series '{}' has no chi-square band, expected one of NEES (..._nees)", name));
 }
@@ -129,8 +143,10 @@ void requireConfig(const StudyFile& study, const Config::Entry& entry, const std
 
 void completeSelection(const StudyFile& study, const std::string& section, Selection& selection) {
     const Config::Section& entries = study.text.section(section);
-    for (const std::string& source : selection.sources) requireSource(study, entries.at("sources"), section, source);
-    for (const std::string& config : selection.configs) requireConfig(study, entries.at("configs"), section, config);
+    for (const std::string& source : selection.sources)
+        requireSource(study, entries.at("sources"), section, source);
+    for (const std::string& config : selection.configs)
+        requireConfig(study, entries.at("configs"), section, config);
     if (selection.sources.empty()) selection.sources = namesOf(study.sources);
     if (selection.configs.empty()) selection.configs = namesOf(study.variants);
 }
@@ -178,7 +194,8 @@ PlotSpec readPlot(const StudyFile& study, const std::string& section) {
             for (const auto& [address, value] : point)
                 if (address == spec.parameter && !numberFromText(value))
                     refuse(entry, section,
-                           fmt::format("'{}' takes the value '{}', expected numbers along an axis", address, value));
+                           fmt::format("'{}' takes the value '{}', expected numbers along an axis", address,
+                                       value));
     return spec;
 }
 

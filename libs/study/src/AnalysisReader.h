@@ -9,8 +9,8 @@ TableSpec readTable(const StudyFile& study, const std::string& section);
 PlotSpec readPlot(const StudyFile& study, const std::string& section);
 CheckSpec readCheck(const StudyFile& study, const std::string& section);
 
-/// The figure must be one a row can have, the series one the study keeps, the others of the study. An empty selection
-/// becomes all.
+/// The figure must be one a row can have, the series one the study keeps, the others of the study. An empty
+/// selection becomes all.
 void requireFigures(const StudyFile& study, const std::string& section, const std::string& key,
                     const std::vector<std::string>& figures);
 void requireSeries(const StudyFile& study, const std::string& section, const std::string& key,

@@ -36,12 +36,13 @@ bool isOfSeries(CheckStatistic s) {
 }
 
 const Variant& variantOf(const StudyFile& study, const std::string& name) {
-    return *std::find_if(study.variants.begin(), study.variants.end(), [&](const Variant& v) { return v.name == name; });
+    return *std::find_if(study.variants.begin(), study.variants.end(),
+                         [&](const Variant& v) { return v.name == name; });
 }
 
 /// One point of a grid: the one that has all of the wanted values, none of them twice.
-const GridPoint& onePoint(const std::vector<GridPoint>& grid, const GridPoint& wanted, const std::string& section,
-                          const std::string& origin) {
+const GridPoint& onePoint(const std::vector<GridPoint>& grid, const GridPoint& wanted,
+                          const std::string& section, const std::string& origin) {
     std::vector<const GridPoint*> found;
     for (const GridPoint& point : grid) {
         const bool matches = std::all_of(wanted.begin(), wanted.end(), [&](const auto& assignment) {
@@ -52,9 +53,9 @@ const GridPoint& onePoint(const std::vector<GridPoint>& grid, const GridPoint& w
         if (matches) found.push_back(&point);
     }
     if (found.size() != 1)
-        throw ConfigError(fmt::format(
-            "{}: [{}] is about {} points of the grid, expected one: where = {} = value", origin, section, found.size(),
-            fmt::join(addressesOf(grid), " = value; ")));
+        throw ConfigError(
+            fmt::format("{}: [{}] is about {} points of the grid, expected one: where = {} = value", origin,
+                        section, found.size(), fmt::join(addressesOf(grid), " = value; ")));
     return *found.front();
 }
 
@@ -68,7 +69,8 @@ GridPoint readWhere(const StudyFile& study, const std::string& section) {
     for (const std::string& part : split(entry.value, ';')) {
         const auto equals = part.find('=');
         if (equals == std::string::npos)
-            refuse(entry, section, fmt::format("where = '{}', expected address=value; address=value", entry.value));
+            refuse(entry, section,
+                   fmt::format("where = '{}', expected address=value; address=value", entry.value));
         const std::string address = trimmed(part.substr(0, equals)), value = trimmed(part.substr(equals + 1));
         std::vector<std::string> addresses = addressesOf(study.scenario_grid), values;
         for (const std::string& other : addressesOf(study.config_grid)) addresses.push_back(other);
@@ -90,7 +92,8 @@ ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string
         .text("config", spec.config, "Of which config.")
         .text("where", where, "Of which point of the grid: address=value; address=value.")
         .choice("statistic", spec.statistic, statistic_names, "What of all runs.");
-    if (isPaired(spec.statistic)) table.text("against", spec.against, "The config compared with, world by world.");
+    if (isPaired(spec.statistic))
+        table.text("against", spec.against, "The config compared with, world by world.");
     if (isOfSeries(spec.statistic)) {
         table.text("series", spec.series, "A series of NEES.");
     } else if (spec.statistic != CheckStatistic::rate) {
@@ -117,7 +120,8 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
     if (config.section(section).count("short_interval") > 0) spec.short_interval = short_interval;
     requiredEntry(config, section, "interval", "'low, high'");
 
-    requireSource(study, requiredEntry(config, section, "source", "the name of a source"), section, spec.source);
+    requireSource(study, requiredEntry(config, section, "source", "the name of a source"), section,
+                  spec.source);
     const auto requireRun = [&](const char* key, const std::string& name) {
         const Config::Entry& entry = requiredEntry(config, section, key, "the name of a config");
         requireConfig(study, entry, section, name);
@@ -127,8 +131,10 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
     };
     requireRun("config", spec.config);
     if (isPaired(spec.statistic)) requireRun("against", spec.against);
-    if (isOfSeries(spec.statistic)) requireNees(study, section, "series", {spec.series});
-    else if (spec.statistic != CheckStatistic::rate) requireFigures(study, section, "figure", {spec.figure});
+    if (isOfSeries(spec.statistic))
+        requireNees(study, section, "series", {spec.series});
+    else if (spec.statistic != CheckStatistic::rate)
+        requireFigures(study, section, "figure", {spec.figure});
 
     const GridPoint wanted = readWhere(study, section);
     const std::string origin = config.origin(section);

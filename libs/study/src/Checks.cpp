@@ -28,8 +28,8 @@ struct PlannedCell {
     std::size_t planned = 0;
 };
 
-PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*>& by_key, const CheckSpec& check,
-                        const std::string& variant) {
+PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*>& by_key,
+                        const CheckSpec& check, const std::string& variant) {
     PlannedCell result;
     result.cell = {check.source, variant, check.scenario_point, check.config_point, {}};
     const StudyFile& study = plan.study;
@@ -38,9 +38,12 @@ PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*
             study.scenario_grid[world.scenario_point] != check.scenario_point)
             continue;
         for (const RunPlan& run : world.runs) {
-            if (plan.variantOf(run).name != variant || study.config_grid[run.config_point] != check.config_point) continue;
+            if (plan.variantOf(run).name != variant ||
+                study.config_grid[run.config_point] != check.config_point)
+                continue;
             ++result.planned;
-            if (const auto found = by_key.find(run.key); found != by_key.end()) result.cell.rows.push_back(found->second);
+            if (const auto found = by_key.find(run.key); found != by_key.end())
+                result.cell.rows.push_back(found->second);
         }
     }
     return result;
@@ -55,8 +58,8 @@ std::string faultOf(const PlannedCell& planned, const CheckSpec& check, const Pl
         return why;
     }
     if (cell.rows.size() < planned.planned)
-        return fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(), planned.planned,
-                           cell.variant);
+        return fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
+                           planned.planned, cell.variant);
     if (check.figure.empty()) return {};
     std::size_t without = 0;
     std::string example;
@@ -66,18 +69,22 @@ std::string faultOf(const PlannedCell& planned, const CheckSpec& check, const Pl
             if (example.empty()) example = row->reason;
         }
     if (static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned)) return {};
-    return fmt::format("{} of {} runs of '{}' are without the figure{}{}", without, planned.planned, cell.variant,
-                       example.empty() ? "" : ", the first since: ", example);
+    return fmt::format("{} of {} runs of '{}' are without the figure{}{}", without, planned.planned,
+                       cell.variant, example.empty() ? "" : ", the first since: ", example);
 }
 
 Outcome ofSeries(const CheckSpec& check, const Cell& cell) {
     const auto measured = consistencyOf(cell, check.series);
     if (!measured) return measured.whyAbsent();
     switch (check.statistic) {
-        case CheckStatistic::anees: return measured->average;
-        case CheckStatistic::inside: return measured->inside;
-        case CheckStatistic::above: return measured->above;
-        default: return measured->below;
+        case CheckStatistic::anees:
+            return measured->average;
+        case CheckStatistic::inside:
+            return measured->inside;
+        case CheckStatistic::above:
+            return measured->above;
+        default:
+            return measured->below;
     }
 }
 
@@ -85,13 +92,19 @@ Outcome ofPairs(const CheckSpec& check, const Cell& cell, const Cell& against, d
     const Paired pair = compare(cell, against, check.figure);
     const std::string none = "no world has the figure in both configs, as something to divide by";
     switch (check.statistic) {
-        case CheckStatistic::ratio: return valueOr(pair.ratio.mean, none);
-        case CheckStatistic::median_ratio: return valueOr(pair.ratio.median, none);
-        case CheckStatistic::ratio_of_means: return valueOr(pair.mean_a / pair.mean_b, none);
-        case CheckStatistic::mean_difference: return valueOr(factor * pair.difference.mean, none);
-        case CheckStatistic::median_difference: return valueOr(factor * pair.difference.median, none);
+        case CheckStatistic::ratio:
+            return valueOr(pair.ratio.mean, none);
+        case CheckStatistic::median_ratio:
+            return valueOr(pair.ratio.median, none);
+        case CheckStatistic::ratio_of_means:
+            return valueOr(pair.mean_a / pair.mean_b, none);
+        case CheckStatistic::mean_difference:
+            return valueOr(factor * pair.difference.mean, none);
+        case CheckStatistic::median_difference:
+            return valueOr(factor * pair.difference.median, none);
         default:
-            return valueOr(static_cast<double>(pair.smaller) / static_cast<double>(pair.difference.count), none);
+            return valueOr(static_cast<double>(pair.smaller) / static_cast<double>(pair.difference.count),
+                           none);
     }
 }
 
@@ -99,10 +112,14 @@ Outcome ofFigure(const CheckSpec& check, const Cell& cell, double factor) {
     const Statistic s = statisticOf(figureOf(cell, check.figure));
     const std::string none = "no run has the figure";
     switch (check.statistic) {
-        case CheckStatistic::mean: return valueOr(factor * s.mean, none);
-        case CheckStatistic::median: return valueOr(factor * s.median, none);
-        case CheckStatistic::minimum: return valueOr(factor * s.minimum, none);
-        default: return valueOr(factor * s.maximum, none);
+        case CheckStatistic::mean:
+            return valueOr(factor * s.mean, none);
+        case CheckStatistic::median:
+            return valueOr(factor * s.median, none);
+        case CheckStatistic::minimum:
+            return valueOr(factor * s.minimum, none);
+        default:
+            return valueOr(factor * s.maximum, none);
     }
 }
 
@@ -128,19 +145,23 @@ std::string describe(const CheckSpec& check, const Analysis& analysis) {
     text += fmt::format(", {}, {}", analysis.label(check.source), analysis.label(check.config));
     if (!check.against.empty()) text += " to " + analysis.label(check.against);
     for (const auto* point : {&check.scenario_point, &check.config_point})
-        for (const auto& [address, value] : *point) text += fmt::format(", {} = {}", analysis.label(address), value);
+        for (const auto& [address, value] : *point)
+            text += fmt::format(", {} = {}", analysis.label(address), value);
     return text;
 }
 
 }  // namespace
 
 bool CheckReport::passed() const {
-    const auto is = [](CheckState state) { return [state](const CheckResult& r) { return r.state == state; }; };
+    const auto is = [](CheckState state) {
+        return [state](const CheckResult& r) { return r.state == state; };
+    };
     return std::none_of(results.begin(), results.end(), is(CheckState::failed)) &&
            std::any_of(results.begin(), results.end(), is(CheckState::passed));
 }
 
-CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows, bool short_form) {
+CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows,
+                      bool short_form) {
     std::map<std::string, const Row*> by_key;
     for (const Row& row : rows) by_key.emplace(row.key, &row);
 
@@ -171,9 +192,10 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
         const Outcome outcome =
             !check.series.empty()    ? ofSeries(check, planned.cell)
             : !check.against.empty() ? ofPairs(check, planned.cell, against.cell, factor)
-            : check.figure.empty()   ? valueOr(divergence(planned.cell, plan.study.parameters.diverged_above).diverged.rate,
-                                               "no run says where the robot was in truth")
-                                     : ofFigure(check, planned.cell, factor);
+            : check.figure.empty()
+                ? valueOr(divergence(planned.cell, plan.study.parameters.diverged_above).diverged.rate,
+                          "no run says where the robot was in truth")
+                : ofFigure(check, planned.cell, factor);
         if (const double* value = std::get_if<double>(&outcome)) {
             result.value = *value;
             if (result.interval.contains(*value)) result.state = CheckState::passed;
@@ -186,8 +208,12 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
 
 Table checkTable(const CheckReport& report) {
     Table table;
-    table.columns = {{"check", {"check"}, false},       {"what", {"what"}, false},     {"value", {"value"}, true},
-                     {"from", {"from"}, true},          {"to", {"to"}, true},          {"result", {"result"}, false},
+    table.columns = {{"check", {"check"}, false},
+                     {"what", {"what"}, false},
+                     {"value", {"value"}, true},
+                     {"from", {"from"}, true},
+                     {"to", {"to"}, true},
+                     {"result", {"result"}, false},
                      {"about", {"about", "reason"}, false}};
     for (const CheckResult& r : report.results) {
         const std::string state = r.state == CheckState::passed   ? "passed"

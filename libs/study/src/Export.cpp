@@ -27,7 +27,9 @@ Words operator+(Words a, const Words& b) {
 class CellCsv {
   public:
     CellCsv(const fs::path& file, const StudyFile& study, const Words& columns)
-        : file_(file.string()), scenario_(addressesOf(study.scenario_grid)), config_(addressesOf(study.config_grid)) {
+        : file_(file.string()),
+          scenario_(addressesOf(study.scenario_grid)),
+          config_(addressesOf(study.config_grid)) {
         file_.write(csvLine(Words{"source"} + scenario_ + Words{"config"} + config_ + columns));
     }
     void line(const std::string& source, const GridPoint& scenario_point, const std::string& variant,
@@ -53,8 +55,8 @@ const Words statistic_columns = {"n",          "mean",        "half_width", "dev
 
 Words fieldsOf(const Statistic& s) {
     Words fields = {std::to_string(s.count)};
-    for (const double value : {s.mean, s.half_width, s.deviation, s.median, s.median_low, s.median_high, s.minimum,
-                               s.maximum})
+    for (const double value :
+         {s.mean, s.half_width, s.deviation, s.median, s.median_low, s.median_high, s.minimum, s.maximum})
         fields.push_back(csvNumber(value));
     return fields;
 }
@@ -80,12 +82,17 @@ class Exporter {
     }
 
     void rows() const {
-        CellCsv csv(folder_ / "rows.csv", study_,
-                    Words{"replicate", "key", "world_seed", "estimator_seed", "status", "reason", "estimate_hash"} +
-                        figures_ + Words{"cost.host"});
+        CellCsv csv(
+            folder_ / "rows.csv", study_,
+            Words{"replicate", "key", "world_seed", "estimator_seed", "status", "reason", "estimate_hash"} +
+                figures_ + Words{"cost.host"});
         for (const Row& row : findings_.rows) {
-            Words fields = {std::to_string(row.replicate), row.key,    std::to_string(row.world_seed),
-                            std::to_string(row.estimator_seed), row.status, row.reason,
+            Words fields = {std::to_string(row.replicate),
+                            row.key,
+                            std::to_string(row.world_seed),
+                            std::to_string(row.estimator_seed),
+                            row.status,
+                            row.reason,
                             row.estimate_hash};
             for (const std::string& figure : figures_) fields.push_back(csvNumber(figureOf(row, figure)));
             fields.push_back(row.cost.host);
@@ -127,9 +134,10 @@ class Exporter {
                     {"runs", "failed", "judged", "diverged", "rate", "rate_low", "rate_high"});
         for (const Cell& cell : cells_) {
             const Divergence d = divergence(cell, study_.parameters.diverged_above);
-            csv.line(cell, {std::to_string(cell.rows.size()), std::to_string(d.failed), std::to_string(d.diverged.of),
-                            std::to_string(d.diverged.count), csvNumber(d.diverged.rate), csvNumber(d.diverged.low),
-                            csvNumber(d.diverged.high)});
+            csv.line(cell,
+                     {std::to_string(cell.rows.size()), std::to_string(d.failed),
+                      std::to_string(d.diverged.of), std::to_string(d.diverged.count),
+                      csvNumber(d.diverged.rate), csvNumber(d.diverged.low), csvNumber(d.diverged.high)});
         }
         csv.close();
     }
@@ -144,8 +152,9 @@ class Exporter {
             for (const std::string& name : names)
                 if (const auto measured = consistencyOf(cell, name))
                     for (const eval::ConsistencyStep& step : measured->steps)
-                        csv.line(cell, {name, toText(step.stamp), std::to_string(step.runs), csvNumber(step.mean),
-                                        csvNumber(step.band.low), csvNumber(step.band.high)});
+                        csv.line(cell,
+                                 {name, toText(step.stamp), std::to_string(step.runs), csvNumber(step.mean),
+                                  csvNumber(step.band.low), csvNumber(step.band.high)});
         csv.close();
     }
 
@@ -177,7 +186,8 @@ class Exporter {
 
     void figures() const {
         for (const PlotSpec& spec : findings_.analysis.plots)
-            report::writeFigure(makeFigure(spec, findings_), folder_ / "figures" / spec.name, {false, true, false});
+            report::writeFigure(makeFigure(spec, findings_), folder_ / "figures" / spec.name,
+                                {false, true, false});
     }
 
   private:

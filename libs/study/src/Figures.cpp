@@ -23,7 +23,8 @@ class RunCount {
         most_ = std::max(most_, runs);
     }
     std::string text() const {
-        const std::string range = least_ == most_ ? std::to_string(most_) : fmt::format("{} to {}", least_, most_);
+        const std::string range =
+            least_ == most_ ? std::to_string(most_) : fmt::format("{} to {}", least_, most_);
         return range + (most_ == 1 ? " run" : " runs");
     }
 
@@ -31,8 +32,8 @@ class RunCount {
     int least_ = 0, most_ = 0;
 };
 
-/// What a panel is about: a figure or series in one source, at one point of the scenario's grid but for the parameter
-/// along the axis.
+/// What a panel is about: a figure or series in one source, at one point of the scenario's grid but for the
+/// parameter along the axis.
 struct Subject {
     std::string name, title;
     std::vector<Cell> cells;
@@ -78,7 +79,8 @@ class Drawing {
             report::Panel panel = panelOf(subject);
             panel.height = subjects.size() > 1 ? 210 : 300;
             panel.title = subject.title;
-            panel.y.label = analysis().label(spec_.kind == PlotKind::against ? spec_.figures[1] : subject.name);
+            panel.y.label =
+                analysis().label(spec_.kind == PlotKind::against ? spec_.figures[1] : subject.name);
             panel.y.logarithmic = spec_.logarithmic_y;
             panel.x.logarithmic = spec_.logarithmic_x;
             if (panel.layers.empty()) panel.note = "no run has this";
@@ -97,7 +99,8 @@ class Drawing {
         std::vector<std::pair<std::string, std::vector<Cell>>> panels;  // by title
         for (const Cell& cell : selectedCells(findings_, spec_.selection)) {
             const std::string title = titleOf(cell);
-            auto panel = std::find_if(panels.begin(), panels.end(), [&](const auto& p) { return p.first == title; });
+            auto panel =
+                std::find_if(panels.begin(), panels.end(), [&](const auto& p) { return p.first == title; });
             if (panel == panels.end()) panel = panels.insert(panel, {title, {}});
             panel->second.push_back(cell);
         }
@@ -110,10 +113,14 @@ class Drawing {
 
     report::Panel panelOf(const Subject& subject) const {
         switch (spec_.kind) {
-            case PlotKind::over_parameter: return overParameter(subject);
-            case PlotKind::against: return against(subject);
-            case PlotKind::over_time: return overTime(subject);
-            case PlotKind::bands: return bands(subject);
+            case PlotKind::over_parameter:
+                return overParameter(subject);
+            case PlotKind::against:
+                return against(subject);
+            case PlotKind::over_time:
+                return overTime(subject);
+            case PlotKind::bands:
+                return bands(subject);
         }
         return {};
     }
@@ -186,8 +193,8 @@ class Drawing {
             panel.layers.push_back(line);
             panel.layers.push_back(report::Points{"", line.points, style.colour, report::Symbol::dot, 6});
         }
-        panel.note =
-            fmt::format("{} of {}, upright lines: 95 % interval", ofMedians() ? "Median" : "Mean", curves.runs.text());
+        panel.note = fmt::format("{} of {}, upright lines: 95 % interval", ofMedians() ? "Median" : "Mean",
+                                 curves.runs.text());
         return panel;
     }
 
@@ -216,7 +223,8 @@ class Drawing {
             lines.push_back(line);
         }
         panel.layers.insert(panel.layers.end(), lines.begin(), lines.end());
-        panel.note = fmt::format("{} of {}, shaded: the middle 80 %", ofMedians() ? "Median" : "Mean", runs.text());
+        panel.note =
+            fmt::format("{} of {}, shaded: the middle 80 %", ofMedians() ? "Median" : "Mean", runs.text());
         if (interval > 0) panel.note += fmt::format("; averaged over {:.2g} s", interval);
         return panel;
     }
@@ -238,9 +246,9 @@ class Drawing {
         panel.x = report::timeAxis();
         if (courses.empty()) return panel;
         // The band depends on the number of runs alone. Where some failed, that of the fullest is shown.
-        const auto fullest = std::max_element(courses.begin(), courses.end(), [](const Course& a, const Course& b) {
-            return a.consistency.runs < b.consistency.runs;
-        });
+        const auto fullest = std::max_element(
+            courses.begin(), courses.end(),
+            [](const Course& a, const Course& b) { return a.consistency.runs < b.consistency.runs; });
         report::Band band{"95 % band of consistent runs", {}, colour::grey, 0.3};
         for (const eval::ConsistencyStep& step : fullest->consistency.steps)
             band.rows.push_back({step.stamp.seconds(), step.band.low, step.band.high});
@@ -252,8 +260,8 @@ class Drawing {
                 line.points.emplace_back(step.stamp.seconds(), step.mean);
             panel.layers.push_back(line);
         }
-        panel.layers.push_back(
-            report::Rule{"expected", fullest->consistency.mean_dimension, false, colour::text, report::Dash::dotted});
+        panel.layers.push_back(report::Rule{"expected", fullest->consistency.mean_dimension, false,
+                                            colour::text, report::Dash::dotted});
         panel.note = fmt::format("Mean NEES of {}", runs.text());
         return panel;
     }

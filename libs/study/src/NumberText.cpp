@@ -31,7 +31,8 @@ std::string fixed(double value, int decimals) {
 std::string withHalfWidth(double value, double half_width, int digits) {
     if (std::isnan(half_width)) return numberText(value, digits);
     const double larger = std::max(std::abs(value), half_width);
-    if (!isPlain(larger)) return fmt::format("{} ± {}", numberText(value, digits), numberText(half_width, digits));
+    if (!isPlain(larger))
+        return fmt::format("{} ± {}", numberText(value, digits), numberText(half_width, digits));
     const int decimals = decimalsFor(larger, digits);
     return fmt::format("{} ± {}", fixed(value, decimals), fixed(half_width, decimals));
 }

@@ -16,7 +16,8 @@ using Values = std::map<Stamp, std::vector<double>>;
 std::vector<const Series*> seriesOf(const Cell& cell, const std::string& name) {
     std::vector<const Series*> runs;
     for (const Row* row : cell.rows)
-        if (const auto found = row->series.find(name); found != row->series.end() && !found->second.value.empty())
+        if (const auto found = row->series.find(name);
+            found != row->series.end() && !found->second.value.empty())
             runs.push_back(&found->second);
     return runs;
 }
@@ -25,7 +26,8 @@ Values byTime(const std::vector<const Series*>& runs) {
     Values values;
     for (const Series* run : runs)
         for (std::size_t i = 0; i < run->value.size(); ++i)
-            if (std::isfinite(run->value[i])) values[Stamp::fromSeconds(run->seconds[i])].push_back(run->value[i]);
+            if (std::isfinite(run->value[i]))
+                values[Stamp::fromSeconds(run->seconds[i])].push_back(run->value[i]);
     return values;
 }
 
@@ -76,8 +78,9 @@ Course courseOf(const Cell& cell, const std::string& name) {
     for (auto& [time, list] : values) {
         std::sort(list.begin(), list.end());
         const double sum = std::accumulate(list.begin(), list.end(), 0.0);
-        course.steps.push_back({time.seconds(), static_cast<int>(list.size()), sum / static_cast<double>(list.size()),
-                                quantileOf(list, 0.5), quantileOf(list, 0.1), quantileOf(list, 0.9)});
+        course.steps.push_back({time.seconds(), static_cast<int>(list.size()),
+                                sum / static_cast<double>(list.size()), quantileOf(list, 0.5),
+                                quantileOf(list, 0.1), quantileOf(list, 0.9)});
     }
     return course;
 }

@@ -16,8 +16,8 @@ struct CourseStep {
 
 struct Course {
     std::vector<CourseStep> steps;
-    /// [s]. Zero where runs share their times, as simulated ones do. Otherwise each run's values are averaged over
-    /// intervals of this length, `seconds` being the middle.
+    /// [s]. Zero where runs share their times, as simulated ones do. Otherwise each run's values are averaged
+    /// over intervals of this length, `seconds` being the middle.
     double interval = 0;
     int runs = 0;
 };

@@ -52,13 +52,15 @@ std::vector<std::string> wordsOfMark(const std::string& line) {
 /// Makes the content of one mark; figures wait until the whole page is known to be good.
 class Filler {
   public:
-    Filler(const std::string& page, const Findings& findings, const Provenance& provenance, const CheckReport* checks)
+    Filler(const std::string& page, const Findings& findings, const Provenance& provenance,
+           const CheckReport* checks)
         : page_(page), findings_(findings), provenance_(provenance), checks_(checks) {}
 
     /// `words` follow the study's name. Ends with a newline.
     std::string content(const std::vector<std::string>& words) {
         const Analysis& analysis = findings_.analysis;
-        if (words.size() == 2 && words[0] == "table") return toMarkdown(makeTable(analysis.table(words[1]), findings_));
+        if (words.size() == 2 && words[0] == "table")
+            return toMarkdown(makeTable(analysis.table(words[1]), findings_));
         if (words.size() == 2 && words[0] == "figure") {
             const PlotSpec& spec = analysis.plot(words[1]);
             const std::string stem = page_.stem().string() + "_" + spec.name;
@@ -67,10 +69,11 @@ class Filler {
         }
         if (words == std::vector<std::string>{"stamp"}) return stampLine(provenance_, findings_) + "\n";
         if (words == std::vector<std::string>{"checks"} && checks_) return toMarkdown(checkTable(*checks_));
-        throw ConfigError(checks_ || words != std::vector<std::string>{"checks"}
-                              ? fmt::format("'{}' is no mark, expected table NAME, figure NAME, checks or stamp",
-                                            fmt::join(words, " "))
-                              : "the checks of the study were not made, expected no mark 'checks'");
+        throw ConfigError(
+            checks_ || words != std::vector<std::string>{"checks"}
+                ? fmt::format("'{}' is no mark, expected table NAME, figure NAME, checks or stamp",
+                              fmt::join(words, " "))
+                : "the checks of the study were not made, expected no mark 'checks'");
     }
 
     void draw() const {
@@ -98,9 +101,10 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
     std::set<std::string> hosts;
     for (const Row& row : rows)
         if (!row.cost.host.empty()) hosts.insert(row.cost.host);
-    const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.status == "failed"; });
-    std::string line = fmt::format("Measured on {}, {}, {} {}, slamot {}, {} runs", p.date, p.processor, p.cores,
-                                   p.cores == 1 ? "core" : "cores", version, rows.size());
+    const auto failed =
+        std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.status == "failed"; });
+    std::string line = fmt::format("Measured on {}, {}, {} {}, slamot {}, {} runs", p.date, p.processor,
+                                   p.cores, p.cores == 1 ? "core" : "cores", version, rows.size());
     if (failed > 0) line += fmt::format(" ({} failed)", failed);
     if (hosts.size() > 1) line += fmt::format(" on {} machines", hosts.size());
     return line + fmt::format(": `{}`", p.command);
@@ -121,7 +125,8 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
             throw ConfigError(fmt::format("{}:{}: {}", page, i + 1, problem));
         };
         std::size_t end = i + 1;
-        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && wordsOfMark(lines[end]).empty()) ++end;
+        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && wordsOfMark(lines[end]).empty())
+            ++end;
         if (end == lines.size() || !wordsOfMark(lines[end]).empty())
             fail(fmt::format("'{}' has no end, expected <!-- end --> before the next mark", lines[i]));
         try {
@@ -132,8 +137,9 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
         i = end - 1;
     }
     if (!any)
-        throw ConfigError(fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
-                                      findings.study.name, findings.study.name));
+        throw ConfigError(
+            fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
+                        findings.study.name, findings.study.name));
     filler.draw();
     run::PartFile file(page);
     file.write(text);

@@ -71,6 +71,8 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     };
     row.cost.wall_s = number(time["wall_s"]);
     row.cost.step_ms_mean = number(time["step_ms"]["mean"]);
+    const double cpu_s = number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
+    row.cost.step_cpu_ms_mean = 1e3 * cpu_s / std::max(1.0, number(time["steps"]));
     row.cost.step_ms_p50 = number(time["step_ms"]["p50"]);
     row.cost.step_ms_p99 = number(time["step_ms"]["p99"]);
     row.cost.step_ms_max = number(time["step_ms"]["max"]);

@@ -36,12 +36,14 @@ std::vector<std::string> sectionsOf(const Config& config, const std::string& pre
 std::string nameOf(const Config& config, const std::string& section, const std::string& prefix) {
     const std::string name = section.substr(prefix.size());
     if (!isPlainName(name))
-        throw ConfigError(fmt::format("{}: [{}] names no file, expected letters, digits, '_' and '-' after '{}'",
-                                      config.origin(section), section, prefix));
+        throw ConfigError(
+            fmt::format("{}: [{}] names no file, expected letters, digits, '_' and '-' after '{}'",
+                        config.origin(section), section, prefix));
     return name;
 }
 
-void addWords(ParameterTable& table, const std::string& key, std::vector<std::string>& field, const std::string& help) {
+void addWords(ParameterTable& table, const std::string& key, std::vector<std::string>& field,
+              const std::string& help) {
     const std::string expected = "names separated by commas, none twice";
     table.custom({key, "-", expected, help,
                   [&field, expected](const std::string& text) -> std::optional<std::string> {
@@ -80,7 +82,8 @@ void requireWord(const Config::Entry& entry, const std::string& section, const s
     throw ConfigError(fmt::format(
         "{}: '{}' in [{}] is no {}{}", entry.origin, word, section, what,
         near ? fmt::format("; did you mean '{}'?", *near)
-             : fmt::format(", expected {}", known.empty() ? "none: there is none" : fmt::format("{}", fmt::join(known, " | ")))));
+             : fmt::format(", expected {}", known.empty() ? "none: there is none"
+                                                          : fmt::format("{}", fmt::join(known, " | ")))));
 }
 
 const Config::Entry& requiredEntry(const Config& config, const std::string& section, const std::string& key,
@@ -88,7 +91,8 @@ const Config::Entry& requiredEntry(const Config& config, const std::string& sect
     const Config::Section& entries = config.section(section);
     const auto found = entries.find(key);
     if (found == entries.end() || found->second.value.empty())
-        throw ConfigError(fmt::format("{}: [{}] lacks '{}', expected {}", config.origin(section), section, key, expected));
+        throw ConfigError(
+            fmt::format("{}: [{}] lacks '{}', expected {}", config.origin(section), section, key, expected));
     return found->second;
 }
 

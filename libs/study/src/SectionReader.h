@@ -1,6 +1,6 @@
 #pragma once
-// Reading the analysis sections of a study file: one section whose keys depend on its kind, and values that must be
-// names of something in the study.
+// Reading the analysis sections of a study file: one section whose keys depend on its kind, and values that
+// must be names of something in the study.
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +16,13 @@ std::string trimmed(const std::string& text);
 /// Names of the sections `prefix`NAME, in the order of the file.
 std::vector<std::string> sectionsOf(const Config& config, const std::string& prefix);
 
-/// What follows `prefix` in a section's name: letters, digits, '_' and '-', since files are named by it. Throws
-/// ConfigError.
+/// What follows `prefix` in a section's name: letters, digits, '_' and '-', since files are named by it.
+/// Throws ConfigError.
 std::string nameOf(const Config& config, const std::string& section, const std::string& prefix);
 
 /// A comma-separated list of names.
-void addWords(ParameterTable& table, const std::string& key, std::vector<std::string>& field, const std::string& help);
+void addWords(ParameterTable& table, const std::string& key, std::vector<std::string>& field,
+              const std::string& help);
 
 /// `low, high`, each may be infinite.
 void addBounds(ParameterTable& table, const std::string& key, eval::Band& field, const std::string& help);
@@ -45,8 +46,8 @@ Enum requiredChoice(const Config& config, const std::string& section, const std:
     const Parameter& parameter = table.parameters().front();
     const Config::Entry& entry = requiredEntry(config, section, key, parameter.expected);
     if (const auto expected = parameter.parse(entry.value))
-        throw ConfigError(entry.origin + ": " + key + " = '" + entry.value + "' in [" + section + "], expected " +
-                          *expected);
+        throw ConfigError(entry.origin + ": " + key + " = '" + entry.value + "' in [" + section +
+                          "], expected " + *expected);
     return value;
 }
 

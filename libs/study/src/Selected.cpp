@@ -34,14 +34,15 @@ std::vector<Cell> selectedCells(const Findings& findings, const Selection& selec
                           placeOf(selection.configs, cell.variant),
                           placeOf(findings.study.config_grid, cell.config_point));
     };
-    std::stable_sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) { return place(a) < place(b); });
+    std::stable_sort(cells.begin(), cells.end(),
+                     [&](const Cell& a, const Cell& b) { return place(a) < place(b); });
     return cells;
 }
 
 const Cell* cellOf(const std::vector<Cell>& cells, const Cell& like, const std::string& variant) {
     const auto found = std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) {
-        return cell.variant == variant && cell.source == like.source && cell.scenario_point == like.scenario_point &&
-               cell.config_point == like.config_point;
+        return cell.variant == variant && cell.source == like.source &&
+               cell.scenario_point == like.scenario_point && cell.config_point == like.config_point;
     });
     return found == cells.end() ? nullptr : &*found;
 }

@@ -5,8 +5,8 @@
 
 namespace slamot::study {
 
-/// Cells of the selection: by source, point of the scenario's grid, config, point of its grid, each in the order of
-/// the selection and the file.
+/// Cells of the selection: by source, point of the scenario's grid, config, point of its grid, each in the
+/// order of the selection and the file.
 std::vector<Cell> selectedCells(const Findings& findings, const Selection& selection);
 
 /// The cell of the same worlds and the same point of the configs' grid; null when there is none.
@@ -18,7 +18,8 @@ std::string valueAt(const GridPoint& point, const std::string& address);
 /// Addresses that take more than one value in the study.
 std::vector<std::string> variedAddresses(const std::vector<GridPoint>& grid);
 
-/// Columns that say which cell a line is about: source (where several are selected), addresses of grids, config.
+/// Columns that say which cell a line is about: source (where several are selected), addresses of grids,
+/// config.
 std::vector<Column> identityColumns(const Findings& findings, const Selection& selection);
 std::vector<Field> identityFields(const Findings& findings, const Selection& selection, const Cell& cell);
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double tail = 0.025;  // of a two-sided interval of 95 %
 
-/// How many order statistics from each end the interval of a median of `n` values begins: the most, r, for which
-/// P(X < r) <= tail with X binomial (n, 1/2). 0 where even the extremes hold the median with less than 95 %.
+/// How many order statistics from each end the interval of a median of `n` values begins: the most, r, for
+/// which P(X < r) <= tail with X binomial (n, 1/2). 0 where even the extremes hold the median with less than
+/// 95 %.
 int medianRank(int n) {
     const boost::math::binomial below(n, 0.5);
     if (n == 0 || cdf(below, 0) > tail) return 0;
@@ -25,7 +26,8 @@ int medianRank(int n) {
 
 Statistic statisticOf(const std::vector<double>& values) {
     std::vector<double> sorted;
-    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
+    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+                 [](double v) { return std::isfinite(v); });
     std::sort(sorted.begin(), sorted.end());
 
     Statistic s;
@@ -51,8 +53,8 @@ Statistic statisticOf(const std::vector<double>& values) {
 }
 
 Statistic scaled(Statistic s, double factor) {
-    for (double* value : {&s.mean, &s.half_width, &s.deviation, &s.median, &s.median_low, &s.median_high, &s.minimum,
-                          &s.maximum})
+    for (double* value : {&s.mean, &s.half_width, &s.deviation, &s.median, &s.median_low, &s.median_high,
+                          &s.minimum, &s.maximum})
         *value *= factor;
     return s;
 }

@@ -270,6 +270,11 @@ StudyFile loadStudy(const std::string& path) {
     if (study.variants.empty()) fail(path, "runs nothing, expected [config.NAME]");
     study.config_grid = readGrid(text, "grid");
     study.scenario_grid = readGrid(text, "grid.scenario");
+    const bool simulates = std::any_of(study.sources.begin(), study.sources.end(),
+                                       [](const Source& s) { return s.scenario.has_value(); });
+    if (text.has("grid.scenario") && !simulates)
+        fail(text.origin("grid.scenario"),
+             "[grid.scenario] changes nothing, expected a [scenario.NAME] for it");
     return study;
 }
 

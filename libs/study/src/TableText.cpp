@@ -60,12 +60,14 @@ std::string toMarkdown(const Table& table) {
 
 std::string toCsv(const Table& table) {
     std::vector<std::string> header;
-    for (const Column& column : table.columns) header.insert(header.end(), column.csv.begin(), column.csv.end());
+    for (const Column& column : table.columns)
+        header.insert(header.end(), column.csv.begin(), column.csv.end());
     std::string csv = csvLine(header);
     for (const TableLine& line : table.lines) {
         if (line.summary) continue;
         std::vector<std::string> fields;
-        for (const Field& field : line.fields) fields.insert(fields.end(), field.csv.begin(), field.csv.end());
+        for (const Field& field : line.fields)
+            fields.insert(fields.end(), field.csv.begin(), field.csv.end());
         csv += csvLine(fields);
     }
     return csv;

@@ -25,7 +25,8 @@ Field numberField(double value, int digits) {
     return {numberText(value, digits), {csvNumber(value)}};
 }
 
-const std::vector<std::string> statistic_parts = {"n", "mean", "half_width", "median", "median_low", "median_high"};
+const std::vector<std::string> statistic_parts = {"n",      "mean",       "half_width",
+                                                  "median", "median_low", "median_high"};
 
 Column statisticColumn(const std::string& heading, const std::string& name) {
     Column column{heading, {}, true};
@@ -59,7 +60,8 @@ class Builder {
             TableLine& line = startLine(cell);
             line.fields.push_back(countField(runs));
             for (const std::string& figure : spec_.figures)
-                line.fields.push_back(statisticField(inUnit(statisticOf(figureOf(cell, figure)), figure), spec_, runs));
+                line.fields.push_back(
+                    statisticField(inUnit(statisticOf(figureOf(cell, figure)), figure), spec_, runs));
         }
         return table_;
     }
@@ -84,8 +86,9 @@ class Builder {
                 line.fields.push_back(countField(worlds));
                 line.fields.push_back(statisticField(inUnit(pair.difference, figure), spec_, worlds));
                 line.fields.push_back(statisticField(pair.ratio, spec_, worlds));
-                line.fields.push_back({worlds == 0 ? no_number : fmt::format("{} of {}", pair.smaller, worlds),
-                                       {std::to_string(pair.smaller)}});
+                line.fields.push_back(
+                    {worlds == 0 ? no_number : fmt::format("{} of {}", pair.smaller, worlds),
+                     {std::to_string(pair.smaller)}});
             }
         }
         return table_;
@@ -96,8 +99,9 @@ class Builder {
         if (spec_.series.size() > 1) table_.columns.push_back({"series", {"series"}, false});
         addCount("runs");
         for (const auto& [heading, name] :
-             {std::pair("ANEES", "anees"), std::pair("expected", "expected"), std::pair("steps in band", "inside"),
-              std::pair("above (over-confident)", "above"), std::pair("below", "below")})
+             {std::pair("ANEES", "anees"), std::pair("expected", "expected"),
+              std::pair("steps in band", "inside"), std::pair("above (over-confident)", "above"),
+              std::pair("below", "below")})
             table_.columns.push_back({heading, {name}, true});
         for (const Cell& cell : cells_)
             for (const std::string& series : spec_.series) {
@@ -109,7 +113,8 @@ class Builder {
                 line.fields.push_back(countField(c.runs));
                 line.fields.push_back(numberField(exists * c.average, spec_.digits));
                 line.fields.push_back(numberField(exists * c.mean_dimension, spec_.digits));
-                for (const double part : {c.inside, c.above, c.below}) line.fields.push_back(percentField(exists * part));
+                for (const double part : {c.inside, c.above, c.below})
+                    line.fields.push_back(percentField(exists * part));
             }
         return table_;
     }
@@ -126,8 +131,9 @@ class Builder {
             line.fields.push_back(countField(static_cast<int>(cell.rows.size())));
             line.fields.push_back(countField(d.failed));
             line.fields.push_back(countField(d.diverged.count));
-            line.fields.push_back({rateText(d.diverged),
-                                   {csvNumber(d.diverged.rate), csvNumber(d.diverged.low), csvNumber(d.diverged.high)}});
+            line.fields.push_back(
+                {rateText(d.diverged),
+                 {csvNumber(d.diverged.rate), csvNumber(d.diverged.low), csvNumber(d.diverged.high)}});
         }
         return table_;
     }
@@ -139,7 +145,8 @@ class Builder {
         std::vector<std::vector<Ranked>> by_figure;
         for (const std::string& figure : spec_.figures) {
             table_.columns.push_back(statisticColumn("rank by " + analysis().label(figure), figure));
-            by_figure.push_back(rank(findings_.rows, spec_.selection.sources, spec_.selection.configs, figure));
+            by_figure.push_back(
+                rank(findings_.rows, spec_.selection.sources, spec_.selection.configs, figure));
         }
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < spec_.selection.configs.size(); ++i) order.push_back(i);
@@ -152,7 +159,8 @@ class Builder {
             TableLine& line = table_.lines.emplace_back();
             const std::string& config = spec_.selection.configs[i];
             line.fields = {{analysis().label(config), {config}}, countField(worlds)};
-            for (const auto& ranked : by_figure) line.fields.push_back(statisticField(ranked[i].rank, spec_, worlds));
+            for (const auto& ranked : by_figure)
+                line.fields.push_back(statisticField(ranked[i].rank, spec_, worlds));
         }
         return table_;
     }
@@ -160,7 +168,8 @@ class Builder {
     /// One line per run, and below those of a cell their mean or median.
     Table runs() {
         const bool all_complete = std::all_of(cells_.begin(), cells_.end(), [](const Cell& cell) {
-            return std::all_of(cell.rows.begin(), cell.rows.end(), [](const Row* r) { return r->status == "complete"; });
+            return std::all_of(cell.rows.begin(), cell.rows.end(),
+                               [](const Row* r) { return r->status == "complete"; });
         });
         table_.columns = identityColumns(findings_, spec_.selection);
         addCount("replicate");
@@ -191,7 +200,9 @@ class Builder {
     Column figureColumn(const std::string& figure) const {
         return statisticColumn(analysis().label(figure), csvName(analysis(), figure));
     }
-    void addCount(const std::string& name) { table_.columns.push_back({analysis().label(name), {name}, true}); }
+    void addCount(const std::string& name) {
+        table_.columns.push_back({analysis().label(name), {name}, true});
+    }
     TableLine& startLine(const Cell& cell) {
         TableLine& line = table_.lines.emplace_back();
         line.fields = identityFields(findings_, spec_.selection, cell);
@@ -205,7 +216,8 @@ class Builder {
         for (const std::string& figure : spec_.figures) {
             const Statistic s = inUnit(statisticOf(figureOf(cell, figure)), figure);
             std::string shown = numberText(s.*value, spec_.digits);
-            if (s.count > 0 && s.count < static_cast<int>(cell.rows.size())) shown += fmt::format(", n = {}", s.count);
+            if (s.count > 0 && s.count < static_cast<int>(cell.rows.size()))
+                shown += fmt::format(", n = {}", s.count);
             line.fields.push_back({shown, {}});
         }
     }
@@ -221,12 +233,18 @@ class Builder {
 Table makeTable(const TableSpec& spec, const Findings& findings) {
     Builder builder(spec, findings);
     switch (spec.kind) {
-        case TableKind::means: return builder.means();
-        case TableKind::paired: return builder.paired();
-        case TableKind::consistency: return builder.consistency();
-        case TableKind::divergence: return builder.divergence();
-        case TableKind::ranks: return builder.ranks();
-        case TableKind::runs: return builder.runs();
+        case TableKind::means:
+            return builder.means();
+        case TableKind::paired:
+            return builder.paired();
+        case TableKind::consistency:
+            return builder.consistency();
+        case TableKind::divergence:
+            return builder.divergence();
+        case TableKind::ranks:
+            return builder.ranks();
+        case TableKind::runs:
+            return builder.runs();
     }
     return {};
 }

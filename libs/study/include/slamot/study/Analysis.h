@@ -22,8 +22,8 @@ std::vector<Cell> cellsOf(const std::vector<Row>& rows);
 /// A figure of every row of the cell, in their order; NaN where the row has none.
 std::vector<double> figureOf(const Cell& cell, const std::string& figure);
 
-/// Of the finite values among those given. A number that cannot be had from so few of them is NaN: `half_width` and
-/// `deviation` need two, the median's interval six.
+/// Of the finite values among those given. A number that cannot be had from so few of them is NaN:
+/// `half_width` and `deviation` need two, the median's interval six.
 struct Statistic {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
     int count = 0;
@@ -38,8 +38,8 @@ Statistic statisticOf(const std::vector<double>& values);
 /// Of `factor` times the values, for a factor above zero.
 Statistic scaled(Statistic statistic, double factor);
 
-/// Differences a - b and ratios a / b of the rows of the same world that both have the figure, and in how many of
-/// them a is the smaller, and neither. Worlds where b is zero have no ratio.
+/// Differences a - b and ratios a / b of the rows of the same world that both have the figure, and in how
+/// many of them a is the smaller, and neither. Worlds where b is zero have no ratio.
 struct Paired {
     Statistic difference, ratio;
     int smaller = 0, equal = 0;
@@ -56,8 +56,8 @@ struct Rate {
 };
 Rate rateOf(int count, int of);
 
-/// Rows that failed or whose robot.position.rmse is above `diverged_above`. A row that did not fail and has no such
-/// figure (no truth) says nothing and is not counted.
+/// Rows that failed or whose robot.position.rmse is above `diverged_above`. A row that did not fail and has
+/// no such figure (no truth) says nothing and is not counted.
 struct Divergence {
     Rate diverged;
     int failed = 0;
@@ -67,9 +67,9 @@ Divergence divergence(const Cell& cell, double diverged_above);
 /// From the series `robot_nees` or another one with dimensions; absent when no row has it.
 eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const std::string& series);
 
-/// A variant's rank by a figure over worlds: 1 is the smallest, ties share the mean of their ranks, a failed run is
-/// last. A world counts where each variant has the figure or failed, and one at least has it. Each point of the config
-/// grid is a world of its own.
+/// A variant's rank by a figure over worlds: 1 is the smallest, ties share the mean of their ranks, a failed
+/// run is last. A world counts where each variant has the figure or failed, and one at least has it. Each
+/// point of the config grid is a world of its own.
 struct Ranked {
     std::string variant;
     Statistic rank;

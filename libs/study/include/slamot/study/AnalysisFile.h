@@ -1,5 +1,6 @@
 #pragma once
-// What a study file wants to be made of its rows: sections [labels], [units], [table.*], [figure.*] and [check.*].
+// What a study file wants to be made of its rows: sections [labels], [units], [table.*], [figure.*] and
+// [check.*].
 #include <map>
 #include <optional>
 #include <string>
@@ -53,11 +54,23 @@ struct PlotSpec {
 
 enum class CheckStatistic {
     // of a figure
-    mean, median, minimum, maximum,
-    // of a figure and a second config, by world; `smaller` is the part of worlds in which `config` has the less
-    ratio, median_ratio, ratio_of_means, mean_difference, median_difference, smaller,
+    mean,
+    median,
+    minimum,
+    maximum,
+    // of a figure and a second config, by world; `smaller` is the part of worlds in which `config` has the
+    // less
+    ratio,
+    median_ratio,
+    ratio_of_means,
+    mean_difference,
+    median_difference,
+    smaller,
     // of a series of NEES over runs
-    anees, inside, above, below,
+    anees,
+    inside,
+    above,
+    below,
     // part of the runs that diverged
     rate
 };

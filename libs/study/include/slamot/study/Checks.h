@@ -25,9 +25,10 @@ struct CheckReport {
     bool passed() const;
 };
 
-/// Takes the rows of the plan only: a store may hold a longer study. Fails where a row is missing or, but for the part
-/// that the check allows, without the figure. Values are in the units of [units].
-CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows, bool short_form);
+/// Takes the rows of the plan only: a store may hold a longer study. Fails where a row is missing or, but for
+/// the part that the check allows, without the figure. Values are in the units of [units].
+CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows,
+                      bool short_form);
 
 Table checkTable(const CheckReport& report);
 

@@ -27,9 +27,9 @@ std::string stampLine(const Provenance& provenance, const Findings& findings);
 ///     <!-- study NAME checks -->         the table of checks
 ///     <!-- study NAME stamp -->          stampLine
 ///
-/// Marks of other studies stay as they are. Throws ConfigError, with file and line, for a mark that names nothing of
-/// the study, has no end, or wants checks where `checks` is null, and for a page without a mark of this study; the page
-/// is then as it was. Throws report::ReportError where a figure cannot be drawn.
+/// Marks of other studies stay as they are. Throws ConfigError, with file and line, for a mark that names
+/// nothing of the study, has no end, or wants checks where `checks` is null, and for a page without a mark of
+/// this study; the page is then as it was. Throws report::ReportError where a figure cannot be drawn.
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
               const CheckReport* checks);
 

@@ -23,8 +23,10 @@ struct Cost {
     /// the runs made from it share.
     double wall_s = none, simulate_s = none;
     double cpu_s = none;  ///< of the thread that ran it
-    double step_ms_mean = none, step_ms_p50 = none, step_ms_p99 = none,
-           step_ms_max = none;  ///< estimator's work
+    /// The estimator's work for a step with detections, by the clock on the wall.
+    double step_ms_mean = none, step_ms_p50 = none, step_ms_p99 = none, step_ms_max = none;
+    /// The same in processor time: what other programs on the machine do hardly counts.
+    double step_cpu_ms_mean = none;
     /// Most memory the run took beyond what was there before it; NaN where runs share the process in
     /// parallel.
     double memory_mb = none;

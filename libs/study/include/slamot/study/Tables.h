@@ -23,8 +23,8 @@ struct Column {
     bool numeric = false;  ///< aligned to the right
 };
 
-/// One place of a table: rounded for people, and for programs as text that reads back unchanged, one for each of
-/// Column::csv.
+/// One place of a table: rounded for people, and for programs as text that reads back unchanged, one for each
+/// of Column::csv.
 struct Field {
     std::string shown;
     std::vector<std::string> csv;
