@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include "slamot/core/estimation/DenseJointState.h"
 #include "slamot/core/estimation/JointFilter.h"
 
 // Eigen calls malloc directly, so this program's malloc counts; the C library's own stands behind it.

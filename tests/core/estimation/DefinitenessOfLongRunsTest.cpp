@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slamot/core/estimation/Definiteness.h"
-#include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
 namespace slamot {
@@ -15,19 +15,20 @@ TEST_P(DefinitenessOfLongRuns, HugePriorsAndPreciseMeasurements) {
     // Variances of prior and measurement 1e14 apart, near the 1e16 of doubles. The landmark starts at first sight, so
     // that it is uncertain with the robot, as in any run, and not against it.
     const Matrix3 prior = Vector3(1e6, 1e6, 1.0).asDiagonal();
-    DenseJointState state(Vector3::Zero(), prior);
+    DenseJointBank bank(Vector3::Zero(), prior, GetParam());
+    JointMode& state = bank.mode(0);
     RangeBearingDetection detection;
     detection.range = 11;
     detection.bearing = 0.5;
     detection.covariance = Vector2(1e-8, 1e-8).asDiagonal();
     const FirstSight sight = firstSight(state, detection, {}, GetParam());
-    const BlockId landmark = state.augment(BlockKind::landmark, sight.position, sight.G, sight.own);
+    const BlockId landmark = bank.augment(BlockKind::landmark, {sight.position, sight.G, sight.own});
     for (int i = 0; i < 20000; ++i) {
         const Vector3 robot = state.mean(robot_block);
         const Vector2 rel = rotation(-robot.z()) * (state.mean(landmark).head<2>() - robot.head<2>());
         detection.range = rel.norm();
         detection.bearing = std::atan2(rel.y(), rel.x());
-        state.update({linearise(state, landmark, detection, {}, GetParam()).measurement}, GetParam());
+        state.update({linearise(state, landmark, detection, {}, GetParam()).measurement});
         ASSERT_TRUE(isPositiveSemidefinite(state.jointCovariance({robot_block, landmark}), 1e-9)) << "update " << i;
     }
 }

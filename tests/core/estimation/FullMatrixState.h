@@ -1,11 +1,11 @@
 #pragma once
-// The joint state as the textbook writes it: full matrices, nothing clever. What JointState engines are held
-// to.
+// The joint state as the textbook writes it: full matrices, nothing clever. What engines of joint states
+// are held to.
 #include <Eigen/Dense>
 #include <map>
 #include <vector>
 
-#include "slamot/core/estimation/JointState.h"
+#include "slamot/core/estimation/LinearMeasurement.h"
 
 namespace slamot::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 #include "slamot/core/models/RangeBearing.h"
 #include "support/Expect.h"
@@ -18,11 +18,11 @@ using test::near;
 const Matrix2 R = (Matrix2() << 0.01, 0.001, 0.001, 0.0025).finished();
 
 /// Robot at (1, 2, 0.5) with a landmark at (7, 10), 10 m away, correlated.
-DenseJointState correlatedState() {
+DenseJointBank correlatedState() {
     const Matrix3 robot = (Matrix3() << 0.4, 0.1, 0.02, 0.1, 0.3, -0.03, 0.02, -0.03, 0.01).finished();
-    DenseJointState state({1, 2, 0.5}, robot);
+    DenseJointBank state({1, 2, 0.5}, robot, Consistency::classic);
     const Eigen::Matrix<double, 2, 3> G = (Eigen::Matrix<double, 2, 3>() << 1, 0, -8, 0, 1, 6).finished();
-    state.augment(BlockKind::landmark, Vector2(7, 10), G, (Matrix2() << 0.5, 0.2, 0.2, 0.4).finished());
+    state.augment(BlockKind::landmark, {Vector2(7, 10), G, (Matrix2() << 0.5, 0.2, 0.2, 0.4).finished()});
     return state;
 }
 
@@ -35,7 +35,8 @@ RangeBearingDetection detectionOf(double range, double bearing) {
 }
 
 TEST(RangeBearingUpdateTest, ClassicIsTheModelsLinearisation) {
-    const DenseJointState state = correlatedState();
+    const DenseJointBank bank = correlatedState();
+    const JointView& state = bank.mode(0);
     const Pose2 sensor{0.5, -0.2, 0.3};
     const auto h = predictRangeBearing({1, 2, 0.5}, {7, 10}, sensor);
     const auto out =
@@ -57,7 +58,8 @@ TEST(RangeBearingUpdateTest, ClassicIsTheModelsLinearisation) {
 TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
     // Innovation of range -= P_lat/(2d), its variance += (P_lat/d)^2/2, P_lat the variance across the line of
     // sight of landmark minus sensor; the lever arm turns with the heading.
-    const DenseJointState state = correlatedState();
+    const DenseJointBank bank = correlatedState();
+    const JointView& state = bank.mode(0);
     const Pose2 sensor{0.5, -0.2, 0.3};
     const auto classic = linearise(state, 1, detectionOf(9, 0.3), sensor, Consistency::classic);
     const auto invariant = linearise(state, 1, detectionOf(9, 0.3), sensor, Consistency::invariant);
@@ -81,9 +83,9 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
 
 TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
     // Sensor at the robot, 2 m away, 0.2 m of uncertainty: mean and variance of the true range by sampling.
-    DenseJointState state({0, 0, 0}, Vector3(0.02, 0.02, 0).asDiagonal());
-    state.augment(BlockKind::landmark, Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3),
-                  0.02 * Matrix2::Identity());
+    DenseJointBank bank({0, 0, 0}, Vector3(0.02, 0.02, 0).asDiagonal(), Consistency::classic);
+    bank.augment(BlockKind::landmark, {Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3), 0.02 * Matrix2::Identity()});
+    const JointView& state = bank.mode(0);
     const auto out = linearise(state, 1, detectionOf(2, 0), {}, Consistency::invariant);
 
     RandomStream random(9, RandomPurpose::test);
@@ -109,9 +111,9 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
 
 TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
     // The landmark lies straight behind, at +pi; seen at -pi + 0.1 the innovation is 0.1 and not 0.1 - 2 pi.
-    DenseJointState state({0, 0, 0}, 0.01 * Matrix3::Identity());
-    state.augment(BlockKind::landmark, Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3),
-                  0.01 * Matrix2::Identity());
+    DenseJointBank bank({0, 0, 0}, 0.01 * Matrix3::Identity(), Consistency::classic);
+    bank.augment(BlockKind::landmark, {Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3), 0.01 * Matrix2::Identity()});
+    const JointView& state = bank.mode(0);
     for (const double offset : {0.1, -0.1}) {
         const double bearing = wrapAngle(pi + offset);
         const auto out = linearise(state, 1, detectionOf(5, bearing), {}, Consistency::classic);
@@ -120,14 +122,16 @@ TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
 }
 
 TEST(RangeBearingUpdateTest, RefusesAnIndefiniteS) {
-    const DenseJointState state = correlatedState();
+    const DenseJointBank bank = correlatedState();
+    const JointView& state = bank.mode(0);
     RangeBearingDetection detection = detectionOf(10, 0);
     detection.covariance = -100 * Matrix2::Identity();
     EXPECT_THROW(linearise(state, 1, detection, {}, Consistency::classic), std::domain_error);
 }
 
 TEST(RangeBearingUpdateTest, FirstSightOfTheClassicFilterIsTheInverseModel) {
-    const DenseJointState state = correlatedState();
+    const DenseJointBank bank = correlatedState();
+    const JointView& state = bank.mode(0);
     const Pose2 sensor{0.5, -0.2, 0.3};
     const auto out = firstSight(state, detectionOf(8, 1.2), sensor, Consistency::classic);
     const auto inverse = invertRangeBearing({1, 2, 0.5}, {8, 1.2}, sensor);
@@ -145,7 +149,8 @@ TEST(RangeBearingUpdateTest, FirstSightOfTheInvariantFilterHasTheMomentsOfTheBan
                  across = r2 * (1 - std::exp(-2 * s2)) / 2;
     RangeBearingDetection detection = detectionOf(10, 0);
     detection.covariance = Vector2(0.01, s2).asDiagonal();
-    const DenseJointState state({0, 0, 0}, Matrix3::Zero());
+    const DenseJointBank bank({0, 0, 0}, Matrix3::Zero(), Consistency::classic);
+    const JointView& state = bank.mode(0);
     const auto out = firstSight(state, detection, {}, Consistency::invariant);
     // Neglected: relative order s^4 / 8 of the mean, s^2 = 1 % of the variances.
     EXPECT_NEAR(out.position.x(), mean, 10 * s2 * s2 / 8);

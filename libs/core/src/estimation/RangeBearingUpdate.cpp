@@ -11,7 +11,7 @@ namespace slamot {
 namespace {
 
 /// Covariance of robot pose and object position, 5 x 5.
-Eigen::Matrix<double, 5, 5> marginal(const JointState& state, BlockId object) {
+Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId object) {
     Eigen::Matrix<double, 5, 5> P;
     P.topLeftCorner<3, 3>() = state.covariance(robot_block, robot_block);
     P.bottomLeftCorner<2, 3>() = state.covariance(object, robot_block).topRows<2>();
@@ -22,7 +22,7 @@ Eigen::Matrix<double, 5, 5> marginal(const JointState& state, BlockId object) {
 
 }  // namespace
 
-Linearisation linearise(const JointState& state, BlockId block, const RangeBearingDetection& detection,
+Linearisation linearise(const JointView& state, BlockId block, const RangeBearingDetection& detection,
                         const Pose2& sensor, Consistency consistency) {
     const Vector3 robot = state.mean(robot_block);
     const RangeBearingPrediction h = predictRangeBearing(robot, state.mean(block).head<2>(), sensor);
@@ -55,7 +55,7 @@ Linearisation linearise(const JointState& state, BlockId block, const RangeBeari
     return out;
 }
 
-FirstSight firstSight(const JointState& state, const RangeBearingDetection& detection, const Pose2& sensor,
+FirstSight firstSight(const JointView& state, const RangeBearingDetection& detection, const Pose2& sensor,
                       Consistency consistency) {
     Vector2 z = detection.z();
     Matrix2 R = detection.covariance;

@@ -6,7 +6,7 @@
 
 #include "FullMatrixState.h"
 #include "slamot/core/estimation/Definiteness.h"
-#include "slamot/core/estimation/DenseJointState.h"
+#include "slamot/core/estimation/DenseJointBank.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
@@ -36,18 +36,18 @@ int sizeOf(BlockKind kind) {
 /// The same random operations on an engine and on the reference.
 class Pair {
   public:
-    explicit Pair(std::uint32_t index)
+    explicit Pair(std::uint32_t index, Consistency consistency = Consistency::invariant)
         : random_(11, RandomPurpose::test, 0, 0, index),
           robot_(randomVector(random_, 3)),
           covariance_(randomCovariance(random_, 3)),
-          engine(robot_, covariance_),
+          engine(robot_, covariance_, consistency),
           reference(robot_, covariance_) {}
 
     void augment(BlockKind kind) {
         const int size = sizeOf(kind);
         const Eigen::VectorXd mean = randomVector(random_, size);
         const Eigen::MatrixXd G = randomMatrix(random_, size, 3) / 2, own = randomCovariance(random_, size);
-        reference.augment(engine.augment(kind, mean, G, own), kind, mean, G, own);
+        reference.augment(engine.augment(kind, {mean, G, own}), kind, mean, G, own);
     }
 
     void propagate(bool coupled) {
@@ -62,11 +62,11 @@ class Pair {
             for (const auto& [from, block] : reference.blocks)
                 if (from != id && couplings.size() < 2 && random_.uniform() < 0.5)
                     couplings.push_back({from, 0.3 * randomMatrix(random_, size, block.size)});
-        engine.propagate(id, mean, F, Q, couplings);
+        engine.mode(0).propagate(id, mean, F, Q, couplings);
         reference.propagate(id, mean, F, Q, couplings);
     }
 
-    void update(Consistency consistency) {
+    void update() {
         std::vector<LinearMeasurement> batch(static_cast<std::size_t>(random_.uniform(0, 5)));
         for (LinearMeasurement& m : batch) {
             m.add(robot_block, randomMatrix(random_, 2, 3));
@@ -76,8 +76,8 @@ class Pair {
             m.residual = randomVector(random_, 2);
             m.R = randomCovariance(random_, 2) + Matrix2::Identity();
         }
-        engine.update(batch, consistency);
-        reference.update(batch, consistency);
+        engine.mode(0).update(batch);
+        reference.update(batch, engine.consistency());
     }
 
     /// Removes any block but the robot.
@@ -107,9 +107,9 @@ class Pair {
             return testing::AssertionFailure() << "dimensions differ";
         Eigen::VectorXd x(engine.dimension());
         for (const auto& [id, block] : reference.blocks)
-            x.segment(reference.offset(id), block.size) = engine.mean(id);
+            x.segment(reference.offset(id), block.size) = engine.mode(0).mean(id);
         if (auto same = near(x, reference.x, 1e-12); !same) return same << "\n(mean)";
-        return near(engine.jointCovariance(allBlocks()), reference.P, 1e-12);
+        return near(engine.mode(0).jointCovariance(allBlocks()), reference.P, 1e-12);
     }
 
     RandomStream random_;
@@ -119,15 +119,15 @@ class Pair {
     Matrix3 covariance_;
 
   public:
-    DenseJointState engine;
+    DenseJointBank engine;
     FullMatrixState reference;
 };
 
-class DenseJointStateTest : public testing::TestWithParam<Consistency> {};
+class DenseJointBankTest : public testing::TestWithParam<Consistency> {};
 
-TEST_P(DenseJointStateTest, RandomSequencesMatchFullMatrices) {
+TEST_P(DenseJointBankTest, RandomSequencesMatchFullMatrices) {
     for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
-        Pair pair(sequence);
+        Pair pair(sequence, GetParam());
         for (int step = 0; step < 60; ++step) {
             const double choice = pair.random_.uniform();
             if (choice < 0.25) {
@@ -137,7 +137,7 @@ TEST_P(DenseJointStateTest, RandomSequencesMatchFullMatrices) {
             } else if (choice < 0.55) {
                 pair.propagate(choice < 0.4);
             } else if (choice < 0.9) {
-                pair.update(GetParam());
+                pair.update();
             } else {
                 pair.remove();
             }
@@ -146,131 +146,129 @@ TEST_P(DenseJointStateTest, RandomSequencesMatchFullMatrices) {
     }
 }
 
-TEST_P(DenseJointStateTest, CovarianceStaysSemidefiniteOverAThousandSteps) {
-    Pair pair(100);
+TEST_P(DenseJointBankTest, CovarianceStaysSemidefiniteOverAThousandSteps) {
+    Pair pair(100, GetParam());
     for (const BlockKind kind : {BlockKind::target, BlockKind::landmark, BlockKind::landmark,
                                  BlockKind::extra, BlockKind::landmark, BlockKind::target})
         pair.augment(kind);
     for (int step = 0; step < 1000; ++step) {
         pair.propagate(step % 3 == 0);
-        pair.update(GetParam());
-        ASSERT_TRUE(isPositiveSemidefinite(pair.engine.jointCovariance(pair.allBlocks()), 1e-9)) << step;
+        pair.update();
+        ASSERT_TRUE(isPositiveSemidefinite(pair.engine.mode(0).jointCovariance(pair.allBlocks()), 1e-9)) << step;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, DenseJointStateTest,
+INSTANTIATE_TEST_SUITE_P(Both, DenseJointBankTest,
                          testing::Values(Consistency::classic, Consistency::invariant), [](const auto& each) {
                              return each.param == Consistency::classic ? "classic" : "invariant";
                          });
 
 /// Robot with a landmark, a target and an extra block in between.
-Pair smallPair() {
-    Pair pair(50);
+Pair smallPair(Consistency consistency = Consistency::invariant) {
+    Pair pair(50, consistency);
     for (const BlockKind kind : {BlockKind::landmark, BlockKind::extra, BlockKind::target})
         pair.augment(kind);
     return pair;
 }
 
-TEST(DenseJointStateTest, CrossCovariancesAreTransposes) {
+TEST(DenseJointBankTest, CrossCovariancesAreTransposes) {
     const Pair pair = smallPair();
     for (const BlockId a : pair.allBlocks())
         for (const BlockId b : pair.allBlocks())
-            EXPECT_EQ(Eigen::MatrixXd(pair.engine.covariance(a, b)),
-                      Eigen::MatrixXd(pair.engine.covariance(b, a).transpose()));
+            EXPECT_EQ(Eigen::MatrixXd(pair.engine.mode(0).covariance(a, b)),
+                      Eigen::MatrixXd(pair.engine.mode(0).covariance(b, a).transpose()));
     // Any order may be asked for.
-    const Eigen::MatrixXd P = pair.engine.jointCovariance({3, robot_block});
+    const Eigen::MatrixXd P = pair.engine.mode(0).jointCovariance({3, robot_block});
     EXPECT_EQ(P.rows(), 9);
-    EXPECT_EQ(P.topRightCorner(6, 3), Eigen::MatrixXd(pair.engine.covariance(3, robot_block)));
+    EXPECT_EQ(P.topRightCorner(6, 3), Eigen::MatrixXd(pair.engine.mode(0).covariance(3, robot_block)));
 }
 
-TEST(DenseJointStateTest, ExtraBlocksDoNotTurnWithTheWorld) {
+TEST(DenseJointBankTest, ExtraBlocksDoNotTurnWithTheWorld) {
     // The one-dimensional extra block of a state where everything is uncertain moves in the update, yet its
     // covariance is the classic one.
-    Pair classic = smallPair(), invariant = smallPair();
+    Pair classic = smallPair(Consistency::classic), invariant = smallPair(Consistency::invariant);
     LinearMeasurement m;
     m.add(robot_block, MeasurementJacobian::Ones(2, 3));
     m.add(2, MeasurementJacobian::Constant(2, 1, 0.5));
     m.residual = Vector2(3, -1);
     m.R = Matrix2::Identity();
-    classic.engine.update({m}, Consistency::classic);
-    invariant.engine.update({m}, Consistency::invariant);
-    EXPECT_EQ(Eigen::MatrixXd(classic.engine.covariance(2, 2)),
-              Eigen::MatrixXd(invariant.engine.covariance(2, 2)));
-    EXPECT_NE(Eigen::MatrixXd(classic.engine.covariance(1, 1)),
-              Eigen::MatrixXd(invariant.engine.covariance(1, 1)));
-    EXPECT_EQ(Eigen::MatrixXd(classic.engine.mean(1)), Eigen::MatrixXd(invariant.engine.mean(1)));
+    classic.engine.mode(0).update({m});
+    invariant.engine.mode(0).update({m});
+    EXPECT_EQ(Eigen::MatrixXd(classic.engine.mode(0).covariance(2, 2)),
+              Eigen::MatrixXd(invariant.engine.mode(0).covariance(2, 2)));
+    EXPECT_NE(Eigen::MatrixXd(classic.engine.mode(0).covariance(1, 1)),
+              Eigen::MatrixXd(invariant.engine.mode(0).covariance(1, 1)));
+    EXPECT_EQ(Eigen::MatrixXd(classic.engine.mode(0).mean(1)), Eigen::MatrixXd(invariant.engine.mode(0).mean(1)));
 }
 
-TEST(DenseJointStateTest, ClonesAreIndependent) {
+TEST(DenseJointBankTest, ClonesAreIndependent) {
     Pair pair = smallPair();
     const auto clone = pair.engine.clone();
-    const Eigen::MatrixXd before = clone->jointCovariance(pair.allBlocks());
-    const Eigen::VectorXd mean_before = clone->mean(3);
-    pair.update(Consistency::invariant);
+    const Eigen::MatrixXd before = clone->mode(0).jointCovariance(pair.allBlocks());
+    const Eigen::VectorXd mean_before = clone->mode(0).mean(3);
+    pair.update();
     pair.propagate(true);
     pair.engine.remove(1);
-    EXPECT_EQ(clone->jointCovariance({0, 1, 2, 3}), before);
-    EXPECT_EQ(Eigen::VectorXd(clone->mean(3)), mean_before);
+    EXPECT_EQ(clone->mode(0).jointCovariance({0, 1, 2, 3}), before);
+    EXPECT_EQ(Eigen::VectorXd(clone->mode(0).mean(3)), mean_before);
     clone->remove(3);
-    EXPECT_NO_THROW(pair.engine.mean(3));
+    EXPECT_NO_THROW(pair.engine.mode(0).mean(3));
     // Ids go on from the same number in both and stay apart.
     EXPECT_EQ(
-        clone->augment(BlockKind::landmark, Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()),
+        clone->augment(BlockKind::landmark, {Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
         4);
-    EXPECT_EQ(pair.engine.augment(BlockKind::extra, Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3),
-                                  Eigen::MatrixXd::Ones(1, 1)),
+    EXPECT_EQ(pair.engine.augment(BlockKind::extra, {Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Ones(1, 1)}),
               4);
-    EXPECT_EQ(clone->mean(4).size(), 2);
-    EXPECT_EQ(pair.engine.mean(4).size(), 1);
+    EXPECT_EQ(clone->mode(0).mean(4).size(), 2);
+    EXPECT_EQ(pair.engine.mode(0).mean(4).size(), 1);
 }
 
-TEST(DenseJointStateTest, RemovedBlocksAreGoneAndIdsNotReused) {
+TEST(DenseJointBankTest, RemovedBlocksAreGoneAndIdsNotReused) {
     Pair pair = smallPair();
     pair.engine.remove(2);
-    EXPECT_THROW(pair.engine.mean(2), std::out_of_range);
-    EXPECT_THROW(pair.engine.covariance(0, 2), std::out_of_range);
+    EXPECT_THROW(pair.engine.mode(0).mean(2), std::out_of_range);
+    EXPECT_THROW(pair.engine.mode(0).covariance(0, 2), std::out_of_range);
     EXPECT_THROW(pair.engine.remove(2), std::out_of_range);
-    EXPECT_THROW(pair.engine.mean(-1), std::out_of_range);
-    EXPECT_THROW(pair.engine.mean(99), std::out_of_range);
+    EXPECT_THROW(pair.engine.mode(0).mean(-1), std::out_of_range);
+    EXPECT_THROW(pair.engine.mode(0).mean(99), std::out_of_range);
     EXPECT_THROW(pair.engine.remove(robot_block), std::invalid_argument);
-    EXPECT_EQ(pair.engine.augment(BlockKind::landmark, Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3),
-                                  Matrix2::Identity()),
+    EXPECT_EQ(pair.engine.augment(BlockKind::landmark, {Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
               4);
 }
 
-TEST(DenseJointStateTest, UpdateRefusesAnIndefiniteS) {
+TEST(DenseJointBankTest, UpdateRefusesAnIndefiniteS) {
     Pair pair = smallPair();
     LinearMeasurement m;
     m.add(robot_block, MeasurementJacobian::Zero(2, 3));
     m.residual.setZero();
     for (const Matrix2& R : {Matrix2(-Matrix2::Identity()), Matrix2(Matrix2::Zero())}) {
         m.R = R;
-        EXPECT_THROW(pair.engine.update({m}, Consistency::invariant), std::domain_error);
+        EXPECT_THROW(pair.engine.mode(0).update({m}), std::domain_error);
     }
     EXPECT_TRUE(pair.agree()) << "a refused update changes nothing";
 }
 
-TEST(DenseJointStateTest, HandComputedUpdate) {
+TEST(DenseJointBankTest, HandComputedUpdate) {
     // Robot known but for x with variance 4; z = x measured with variance 1 (the second row sees y, known).
     // Gain 4/5: x 0 -> 0.8 * 5 = 4, variance 4 - 16/5 = 0.8.
-    DenseJointState state({0, 0, 3}, Vector3(4, 0, 0).asDiagonal());
+    DenseJointBank state({0, 0, 3}, Matrix3(Vector3(4, 0, 0).asDiagonal()), Consistency::invariant);
     LinearMeasurement m;
     m.add(robot_block, (MeasurementJacobian(2, 3) << 1, 0, 0, 0, 1, 0).finished());
     m.residual = Vector2(5, 0);
     m.R = Matrix2::Identity();
-    state.update({m}, Consistency::invariant);
-    EXPECT_TRUE(near(state.mean(robot_block), Vector3(4, 0, 3), 1e-15));
-    EXPECT_TRUE(near(state.covariance(0, 0), Matrix3(Vector3(0.8, 0, 0).asDiagonal()), 1e-15));
+    state.mode(0).update({m});
+    EXPECT_TRUE(near(state.mode(0).mean(robot_block), Vector3(4, 0, 3), 1e-15));
+    EXPECT_TRUE(near(state.mode(0).covariance(0, 0), Matrix3(Vector3(0.8, 0, 0).asDiagonal()), 1e-15));
 }
 
-TEST(DenseJointStateTest, HeadingIsWrappedByUpdates) {
-    DenseJointState state({0, 0, 3}, Vector3(0, 0, 1).asDiagonal());
+TEST(DenseJointBankTest, HeadingIsWrappedByUpdates) {
+    DenseJointBank state({0, 0, 3}, Matrix3(Vector3(0, 0, 1).asDiagonal()), Consistency::classic);
     LinearMeasurement m;
     m.add(robot_block, (MeasurementJacobian(2, 3) << 0, 0, 1, 0, 1, 0).finished());
     m.residual = Vector2(1, 0);
     m.R = Vector2(1e-9, 1).asDiagonal();
-    state.update({m}, Consistency::classic);
-    EXPECT_NEAR(state.mean(robot_block)(2), 4 - 2 * pi, 1e-8);  // gain 1 / (1 + 1e-9)
+    state.mode(0).update({m});
+    EXPECT_NEAR(state.mode(0).mean(robot_block)(2), 4 - 2 * pi, 1e-8);  // gain 1 / (1 + 1e-9)
 }
 
 }  // namespace

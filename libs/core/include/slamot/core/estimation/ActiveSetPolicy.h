@@ -1,0 +1,59 @@
+#pragma once
+// Which landmarks the compressed engine keeps active: those the sensors can reach, with a margin.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slamot/core/config/Parameters.h"
+#include "slamot/core/estimation/JointBank.h"
+
+namespace slamot {
+
+struct ActiveSetParameters {
+    /// [m]; not given: the sensors' own limits, or the longest range met where a sensor has none.
+    std::optional<double> range;
+    double activate_margin = 0.4;   ///< landmarks up to (1 + this) ranges away are activated
+    double keep_margin = 0.5;       ///< active ones are kept up to (1 + this) ranges away
+    double view_margin = pi / 3;    ///< [rad] beyond the edge of the field of view, twice that for keeping
+    double base_growth = 3;         ///< commit when dim(beta) exceeds this times the active dimension
+    double retirable_part = 0.25;   ///< commit when this part of the active landmarks is out of reach
+    int keep_at_least = 100;        ///< active landmarks; fewer are not worth a commit
+    double work_per_step = 1e7;     ///< multiplications spent on the queue of the passive map
+};
+
+/// The table `[name]`.
+ParameterTable describe(ActiveSetParameters& parameters, const std::string& name);
+
+class ActiveSetPolicy {
+  public:
+    explicit ActiveSetPolicy(const ActiveSetParameters& parameters) : parameters_(parameters) {}
+
+    const ActiveSetParameters& parameters() const { return parameters_; }
+    /// Takes note of where the sensors are now.
+    void look(const Attention& attention);
+    /// The longest range of a sensor [m].
+    double range() const { return range_; }
+
+    /// Whether sensors have moved so far that landmarks may have come within reach since `refreshed`.
+    bool due() const;
+    void refreshed();
+
+    bool toActivate(const Vector2& landmark) const { return within(landmark, parameters_.activate_margin, 1); }
+    bool toKeep(const Vector2& landmark) const { return within(landmark, parameters_.keep_margin, 2); }
+    bool worthCommit(int active_dimension, int active_landmarks, int retirable, int base_dimension) const;
+
+  private:
+    struct Sensor {
+        std::string label;
+        double range, field_of_view;
+        Pose2 now, at_refresh;  ///< in the world
+        bool known = false;     ///< whether at_refresh holds, and for this range
+    };
+    bool within(const Vector2& landmark, double margin, double view_margins) const;
+
+    ActiveSetParameters parameters_;
+    std::vector<Sensor> sensors_;
+    double range_ = 0;
+};
+
+}  // namespace slamot

@@ -1,0 +1,87 @@
+#pragma once
+// The bank whose steps cost what is near the sensors, whatever the map (doc/maths/compressed_engine.md).
+//
+// Landmarks out of reach are put away in a PassiveMap: b = b0 + B^t beta + e. The modes are Gaussians over the active
+// state a = [robot | targets | landmarks within reach] and beta, with formal covariance
+//
+//   [ P_aa  Phi ]        so that  P_ab = Phi B,  P_bb = P_bb0 + B^t Psi B,  b = b0 + B^t eta.
+//   [ Phi^t Psi ]
+//
+// Prediction, update, transport, mixing and new landmarks act on [a | beta] as on any joint state: beta's rows are
+// scalars in the classic core and 2-vectors that turn with the world in the invariant one. Activation and commit
+// move landmarks between the two.
+#include <vector>
+
+#include "slamot/core/estimation/ActiveSetPolicy.h"
+#include "slamot/core/estimation/BlockGaussian.h"
+#include "slamot/core/estimation/JointBank.h"
+#include "slamot/core/estimation/PassiveMap.h"
+
+namespace slamot {
+
+class CompressedJointBank : public JointBank {
+  public:
+    CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency, int modes = 1,
+                        const ActiveSetParameters& policy = {});
+    CompressedJointBank(const CompressedJointBank& other);
+
+    using JointBank::augment;
+    std::unique_ptr<JointBank> clone() const override { return std::make_unique<CompressedJointBank>(*this); }
+    Consistency consistency() const override { return consistency_; }
+    int dimension() const override { return activeDimension() + 2 * map_.size(); }
+    BlockKind kind(BlockId block) const override;
+    int modeCount() const override { return static_cast<int>(modes_.size()); }
+    JointMode& mode(int index) override { return modes_.at(static_cast<std::size_t>(index)); }
+    const JointMode& mode(int index) const override { return modes_.at(static_cast<std::size_t>(index)); }
+
+    BlockId augment(BlockKind kind, const std::vector<NewBlock>& by_mode) override;
+    void remove(BlockId block) override;
+    void mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) override;
+    void attend(const Attention& attention, const ModeWeights& weights) override;
+    void activate(const std::vector<BlockId>& landmarks) override;
+    void commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) override;
+
+    bool active(BlockId block) const { return layout_.contains(block); }
+    int activeDimension() const { return layout_.dimension() - map_.baseDimension(); }
+    const PassiveMap& map() const { return map_; }
+    /// Bytes of all modes and of what is put away, work space of the modes left out.
+    std::size_t memory() const;
+    std::int64_t commits() const { return commits_; }
+    std::int64_t activations() const { return activations_; }
+
+  private:
+    class Mode : public JointMode {
+      public:
+        explicit Mode(const CompressedJointBank& owner) : bank(&owner) {}
+        BlockVector mean(BlockId block) const override;
+        BlockMatrix covariance(BlockId a, BlockId b) const override;
+        Eigen::MatrixXd jointCovariance(const std::vector<BlockId>& blocks) const override;
+        void propagate(BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,
+                       const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                       const std::vector<Coupling>& couplings) override;
+        BatchLikelihood update(const std::vector<LinearMeasurement>& batch) override;
+
+        /// How the block depends on [a | beta], size x n.
+        Eigen::MatrixXd dependence(BlockId block) const;
+
+        const CompressedJointBank* bank;
+        BlockGaussian gaussian;
+    };
+
+    /// Offsets of beta's coordinates, in the order of the base's rows.
+    std::vector<int> baseCoordinates() const;
+    void appendBase(int rows);
+
+    Consistency consistency_;
+    BlockLayout layout_;              ///< of [a | beta]
+    std::vector<BlockId> base_;       ///< beta's blocks, in the order of the base's rows
+    BlockId next_id_ = 0;
+    std::vector<Mode> modes_;
+    std::vector<BlockGaussian> mixed_;  ///< where mixing works
+    PassiveMap map_;
+    ActiveSetPolicy policy_;
+    std::int64_t commits_ = 0, activations_ = 0;
+    std::vector<BlockId> leaving_, coming_;  ///< work space
+};
+
+}  // namespace slamot

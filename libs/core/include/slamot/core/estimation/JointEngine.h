@@ -1,0 +1,24 @@
+#pragma once
+// Which engine keeps a joint state, and its settings.
+#include <memory>
+
+#include "slamot/core/data/Pose2.h"
+#include "slamot/core/estimation/ActiveSetPolicy.h"
+#include "slamot/core/estimation/JointBank.h"
+
+namespace slamot {
+
+struct JointEngine {
+    enum class Kind {
+        dense,      ///< one full covariance per mode
+        compressed  ///< what is near the sensors, and one map for all modes
+    };
+    Kind kind = Kind::dense;
+    ActiveSetParameters active_set;
+};
+
+/// A bank of modes that are all at `robot`.
+std::unique_ptr<JointBank> makeJointBank(const JointEngine& engine, const PoseGaussian& robot,
+                                         Consistency consistency, int modes);
+
+}  // namespace slamot

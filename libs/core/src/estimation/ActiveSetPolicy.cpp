@@ -1,0 +1,89 @@
+#include "slamot/core/estimation/ActiveSetPolicy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slamot {
+
+ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
+    ParameterTable table(name, "What the compressed engine keeps within reach, and when it puts landmarks away.");
+    table
+        .optionalReal("range", p.range, "m", Interval::positive(),
+                      "How far the sensors see; auto: their own limits, or the longest range met.")
+        .real("activate_margin", p.activate_margin, "-", Interval::nonNegative(),
+              "Landmarks are brought in up to (1 + this) ranges away.")
+        .real("keep_margin", p.keep_margin, "-", Interval::nonNegative(),
+              "They are kept up to (1 + this) ranges away; more than activate_margin.")
+        .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, 180),
+              "The same beyond the edges of a field of view below 360 deg; twice that for keeping.")
+        .real("base_growth", p.base_growth, "-", Interval::atLeast(2.1),
+              "Commit when the base has more than this times the active state's dimensions.")
+        .real("retirable_part", p.retirable_part, "-", Interval::probability(),
+              "Commit when this part of the active landmarks is out of reach.")
+        .integer("keep_at_least", p.keep_at_least, Interval::nonNegative(),
+                 "Active landmarks that are kept in any case: a small map is never divided.")
+        .real("work_per_step", p.work_per_step, "-", Interval::positive(),
+              "Multiplications a step may spend on what a commit has left for later.");
+    return table;
+}
+
+void ActiveSetPolicy::look(const Attention& attention) {
+    for (const RangeBearingSensor& seen : attention.seen.sensors) {
+        const auto same = [&seen](const Sensor& s) { return s.label == seen.label; };
+        auto sensor = std::find_if(sensors_.begin(), sensors_.end(), same);
+        if (sensor == sensors_.end())
+            sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}});
+        const double limit = parameters_.range.value_or(seen.max_range);
+        if (limit > 0) sensor->range = limit;
+        sensor->now = attention.robot * seen.pose;
+    }
+    for (const RangeBearingDetection& detection : attention.seen.detections) {
+        const RangeBearingSensor& seen = attention.seen.sensors[static_cast<std::size_t>(detection.sensor)];
+        if (parameters_.range || seen.max_range > 0) continue;
+        for (Sensor& sensor : sensors_) {
+            if (sensor.label != seen.label || detection.range <= sensor.range) continue;
+            sensor.range = detection.range;
+            sensor.known = false;
+        }
+    }
+    for (const Sensor& sensor : sensors_) range_ = std::max(range_, sensor.range);
+}
+
+bool ActiveSetPolicy::due() const {
+    return std::any_of(sensors_.begin(), sensors_.end(), [this](const Sensor& s) {
+        if (!s.known) return true;
+        // What is in view now was within reach then, as long as neither margin is used up.
+        const double moved = (s.now.position() - s.at_refresh.position()).norm();
+        const double turned = std::abs(angleDifference(s.now.theta, s.at_refresh.theta));
+        return moved >= parameters_.activate_margin * s.range ||
+               (s.field_of_view < 2 * pi && turned >= parameters_.view_margin);
+    });
+}
+
+void ActiveSetPolicy::refreshed() {
+    for (Sensor& sensor : sensors_) {
+        sensor.at_refresh = sensor.now;
+        sensor.known = true;
+    }
+}
+
+bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view_margins) const {
+    return std::any_of(sensors_.begin(), sensors_.end(), [&](const Sensor& s) {
+        const Vector2 to = landmark - s.now.position();
+        const double distance = to.norm();
+        if (distance > (1 + margin) * s.range) return false;
+        // A sensor that moves by its margin sees what stood beside it from another side.
+        if (s.field_of_view >= 2 * pi || distance <= margin * s.range) return true;
+        const double aside = std::abs(angleDifference(std::atan2(to.y(), to.x()), s.now.theta));
+        return aside <= 0.5 * s.field_of_view + view_margins * parameters_.view_margin;
+    });
+}
+
+bool ActiveSetPolicy::worthCommit(int active_dimension, int active_landmarks, int retirable,
+                                  int base_dimension) const {
+    if (base_dimension > parameters_.base_growth * active_dimension) return true;
+    return retirable > 0 && active_landmarks - retirable >= 0 && active_landmarks > parameters_.keep_at_least &&
+           retirable > parameters_.retirable_part * active_landmarks;
+}
+
+}  // namespace slamot

@@ -1,0 +1,298 @@
+#include "slamot/core/estimation/CompressedJointBank.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "slamot/core/estimation/CommonConditional.h"
+
+namespace slamot {
+
+CompressedJointBank::CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
+                                         int modes, const ActiveSetParameters& policy)
+    : consistency_(consistency),
+      modes_(static_cast<std::size_t>(modes), Mode(*this)),
+      map_(consistency == Consistency::invariant),
+      policy_(policy) {
+    augment(BlockKind::robot, NewBlock{robot, {}, covariance});
+}
+
+CompressedJointBank::CompressedJointBank(const CompressedJointBank& other)
+    : JointBank(other),
+      consistency_(other.consistency_),
+      layout_(other.layout_),
+      base_(other.base_),
+      next_id_(other.next_id_),
+      modes_(other.modes_),
+      map_(other.map_),
+      policy_(other.policy_),
+      commits_(other.commits_),
+      activations_(other.activations_) {
+    for (Mode& mode : modes_) mode.bank = this;
+}
+
+BlockKind CompressedJointBank::kind(BlockId block) const {
+    return map_.contains(block) ? BlockKind::landmark : layout_.at(block).kind;
+}
+
+BlockId CompressedJointBank::augment(BlockKind kind, const std::vector<NewBlock>& by_mode) {
+    for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i].gaussian.augment(by_mode.at(i));
+    layout_.append(next_id_, kind, static_cast<int>(by_mode.front().mean.size()));
+    return next_id_++;
+}
+
+void CompressedJointBank::remove(BlockId id) {
+    if (map_.contains(id)) return map_.remove(id);
+    const BlockPlace gone = layout_.at(id);
+    if (gone.kind == BlockKind::robot) throw std::invalid_argument("the robot cannot leave the joint state");
+    for (Mode& mode : modes_) mode.gaussian.remove(gone.offset, gone.size);
+    layout_.remove(id);
+}
+
+void CompressedJointBank::mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) {
+    if (mu.size() == 1) return;
+    const auto count = static_cast<std::size_t>(mu.cols());
+    mixed_.resize(count);
+    std::vector<const BlockGaussian*> modes;
+    for (const Mode& mode : modes_) modes.push_back(&mode.gaussian);
+    for (std::size_t j = 0; j < count; ++j)
+        mixed_[j].setMixture(layout_, modes, mu.col(static_cast<Eigen::Index>(j)), consistency_);
+    modes_.resize(count, Mode(*this));
+    for (std::size_t j = 0; j < count; ++j) std::swap(modes_[j].gaussian, mixed_[j]);
+}
+
+std::vector<int> CompressedJointBank::baseCoordinates() const {
+    std::vector<int> out;
+    for (const BlockId id : base_) {
+        const BlockPlace& block = layout_.at(id);
+        for (int k = 0; k < block.size; ++k) out.push_back(block.offset + k);
+    }
+    return out;
+}
+
+void CompressedJointBank::appendBase(int rows) {
+    for (Mode& mode : modes_) mode.gaussian.append(rows);
+    layout_.append(next_id_, BlockKind::extra, rows, consistency_ == Consistency::invariant ? rows / 2 : 0);
+    base_.push_back(next_id_++);
+}
+
+void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
+    std::vector<BlockId> away;
+    for (const BlockId id : landmarks)
+        if (map_.contains(id)) away.push_back(id);
+    if (away.empty()) return;
+    ++activations_;
+
+    // c = c0 + B_c^t beta + e_c. P_cr0, the covariance of e_c with what stays, becomes base rows gamma: they have
+    // no covariance but the identity with c, and none of their own.
+    const std::vector<int> beta = baseCoordinates();
+    const PassiveMap::Taken taken = map_.take(away);
+    const int columns = static_cast<int>(taken.mean.size()), before = layout_.dimension();
+    appendBase(taken.new_rows);
+    const int gamma = before, c = gamma + taken.new_rows, step = taken.new_rows / columns;
+    for (Mode& mode : modes_) {
+        BlockGaussian& g = mode.gaussian;
+        Eigen::MatrixXd P_beta(static_cast<Eigen::Index>(beta.size()), before);
+        for (std::size_t k = 0; k < beta.size(); ++k)
+            for (int j = 0; j < before; ++j)
+                P_beta(static_cast<Eigen::Index>(k), j) = g.lower()(std::max(beta[k], j), std::min(beta[k], j));
+        const Eigen::MatrixXd P_c = taken.base.transpose() * P_beta;  // with [a | beta]
+        const Eigen::VectorXd mean = taken.mean + taken.base.transpose() * Eigen::VectorXd(g.mean()(beta));
+        g.append(columns);
+        g.mean().segment(c, columns) = mean;
+        g.lower().block(c, 0, columns, before) = P_c;
+        for (int k = 0; k < columns; ++k) g.lower()(c + k, gamma + step * k) = 1.0;
+        g.lower().block(c, c, columns, columns) =
+            taken.covariance + P_c(Eigen::all, beta) * taken.base;
+    }
+    for (const BlockId id : away) layout_.append(id, BlockKind::landmark, 2);
+}
+
+void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) {
+    if (landmarks.empty() && map_.size() == 0) return;
+    ++commits_;
+    for (const BlockId id : landmarks)
+        if (!map_.contains(id)) layout_.setPutAway(id, true);
+
+    // (1), (2) One distribution for all modes, at the merged mean.
+    std::vector<BlockGaussian*> modes;
+    for (Mode& mode : modes_) modes.push_back(&mode.gaussian);
+    const MatchedModes matched = matchModes(layout_, modes, weights, consistency_);
+    const Eigen::MatrixXd& P = matched.covariance;
+
+    // (3) What is put away leaves a; the kept rest gives the new base.
+    BlockLayout kept_layout;
+    std::vector<int> kept, away;
+    for (const BlockPlace& block : layout_.places()) {
+        if (std::find(base_.begin(), base_.end(), block.id) != base_.end()) continue;
+        if (!block.put_away) kept_layout.append(block.id, block.kind, block.size);
+        for (int k = 0; k < block.size; ++k) (block.put_away ? away : kept).push_back(block.offset + k);
+    }
+    const std::vector<int> beta = baseCoordinates();
+    PassiveMap::Commit commit;
+    commit.Phi = P(kept, beta);
+    commit.Psi = P(beta, beta);
+    commit.eta = matched.mean(beta);
+    commit.kept_std = Eigen::VectorXd(P.diagonal()(kept)).cwiseMax(0).cwiseSqrt();
+    for (const BlockPlace& block : layout_.places())
+        if (block.put_away) commit.landmarks.push_back(block.id);
+    commit.mean = matched.mean(away);
+    commit.Phi_landmarks = P(away, beta);
+    commit.kept_covariance = P(kept, away);
+    commit.own_covariance = P(away, away);
+    map_.setTileReach(policy_.range() > 0 ? policy_.range() : std::numeric_limits<double>::infinity());
+    map_.commit(commit);
+
+    const bool several = modes_.size() > 1;
+    const Eigen::MatrixXd P_aa = P(kept, kept), inverse = several ? pseudoInverse(P_aa) : Eigen::MatrixXd();
+    const int n_a = static_cast<int>(kept.size()), q = map_.baseDimension(), step = q / std::max(n_a, 1);
+    const std::vector<int> first = [&] {  // beta's coordinates that stand for a itself, not for its turned copy
+        std::vector<int> out;
+        for (int k = 0; k < n_a; ++k) out.push_back(n_a + step * k);
+        return out;
+    }();
+    layout_ = kept_layout;
+    base_.clear();
+    layout_.append(next_id_, BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
+    base_.push_back(next_id_++);
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        BlockGaussian& g = modes_[i].gaussian;
+        const Eigen::MatrixXd whole = g.lower().selfadjointView<Eigen::Lower>();
+        const Eigen::MatrixXd own = whole(kept, kept);
+        const Eigen::VectorXd mean = g.mean()(kept);
+        Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(n_a + q, n_a + q);
+        cross.topLeftCorner(n_a, n_a) = own;
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(n_a + q);
+        x.head(n_a) = mean;
+        if (several) {
+            const Eigen::MatrixXd gain = inverse * own;
+            const Eigen::VectorXd deviation = Eigen::VectorXd(matched.deviation.col(static_cast<Eigen::Index>(i)))(kept);
+            for (int k = 0; k < n_a; ++k) cross.row(first[static_cast<std::size_t>(k)]).head(n_a) = gain.row(k);
+            cross(first, first) = gain * inverse - inverse;
+            x(first) = inverse * deviation;
+        } else {
+            for (int k = 0; k < n_a; ++k) cross(first[static_cast<std::size_t>(k)], k) = 1.0;
+        }
+        g.set(x, cross);
+        if (!several || consistency_ == Consistency::classic) continue;
+        // (4) Back to the mode's own mean.
+        Eigen::VectorXd moved = x;
+        moved.head(n_a) = Eigen::VectorXd(matched.deviation.col(static_cast<Eigen::Index>(i)))(kept);
+        g.transport(layout_, moved);
+    }
+}
+
+void CompressedJointBank::attend(const Attention& attention, const ModeWeights& weights) {
+    map_.work(policy_.parameters().work_per_step);
+    policy_.look(attention);
+    Eigen::Index reference = 0;
+    weights.maxCoeff(&reference);
+    const Mode& mode = modes_[static_cast<std::size_t>(reference)];
+
+    leaving_.clear();
+    int active_landmarks = 0;
+    for (const BlockPlace& block : layout_.places()) {
+        if (block.kind != BlockKind::landmark) continue;
+        ++active_landmarks;
+        const bool measured =
+            std::find(attention.measured.begin(), attention.measured.end(), block.id) != attention.measured.end();
+        if (!measured && !policy_.toKeep(mode.gaussian.mean().segment<2>(block.offset))) leaving_.push_back(block.id);
+    }
+    if (policy_.worthCommit(activeDimension(), active_landmarks, static_cast<int>(leaving_.size()),
+                            map_.baseDimension()))
+        commit(leaving_, weights);
+
+    coming_.clear();
+    for (const BlockId id : attention.measured)
+        if (map_.contains(id)) coming_.push_back(id);
+    if (policy_.due()) {
+        if (map_.size() > 0) {
+            const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
+            map_.forPositions(eta, [&](BlockId id, const Vector2& position) {
+                if (policy_.toActivate(position) && std::find(coming_.begin(), coming_.end(), id) == coming_.end())
+                    coming_.push_back(id);
+            });
+        }
+        policy_.refreshed();
+    }
+    activate(coming_);
+}
+
+std::size_t CompressedJointBank::memory() const {
+    std::size_t numbers = 0;
+    const auto n = static_cast<std::size_t>(layout_.dimension());
+    numbers += n * (n + 1) * (modes_.size() + mixed_.size());
+    return sizeof(double) * numbers + map_.memory();
+}
+
+BlockVector CompressedJointBank::Mode::mean(BlockId id) const {
+    if (bank->map_.contains(id)) {
+        const Eigen::VectorXd eta = gaussian.mean()(bank->baseCoordinates());
+        return bank->map_.mean(id) + bank->map_.base(id).transpose() * eta;
+    }
+    const BlockPlace& block = bank->layout_.at(id);
+    return gaussian.mean().segment(block.offset, block.size);
+}
+
+Eigen::MatrixXd CompressedJointBank::Mode::dependence(BlockId id) const {
+    const int n = bank->layout_.dimension();
+    if (bank->map_.contains(id)) {
+        Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2, n);
+        out(Eigen::all, bank->baseCoordinates()) = bank->map_.base(id).transpose();
+        return out;
+    }
+    const BlockPlace& block = bank->layout_.at(id);
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(block.size, n);
+    out.middleCols(block.offset, block.size).setIdentity();
+    return out;
+}
+
+BlockMatrix CompressedJointBank::Mode::covariance(BlockId a, BlockId b) const {
+    const PassiveMap& map = bank->map_;
+    const bool away_a = map.contains(a), away_b = map.contains(b);
+    if (!away_a && !away_b) return gaussian.covariance(bank->layout_.at(a), bank->layout_.at(b));
+    Eigen::MatrixXd out =
+        dependence(a) * (gaussian.lower().selfadjointView<Eigen::Lower>() * dependence(b).transpose());
+    if (away_a && away_b) out += map.covariance(a, b);
+    return out;
+}
+
+Eigen::MatrixXd CompressedJointBank::Mode::jointCovariance(const std::vector<BlockId>& blocks) const {
+    const int n = bank->layout_.dimension();
+    std::vector<Eigen::MatrixXd> parts;
+    int size = 0;
+    for (const BlockId id : blocks) {
+        parts.push_back(dependence(id));
+        size += static_cast<int>(parts.back().rows());
+    }
+    Eigen::MatrixXd T(size, n);
+    std::vector<int> offset;
+    int row = 0;
+    for (const Eigen::MatrixXd& part : parts) {
+        offset.push_back(row);
+        T.middleRows(row, part.rows()) = part;
+        row += static_cast<int>(part.rows());
+    }
+    Eigen::MatrixXd out = T * (gaussian.lower().selfadjointView<Eigen::Lower>() * T.transpose());
+    out = 0.5 * (out + out.transpose()).eval();
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (!bank->map_.contains(blocks[i])) continue;
+        for (std::size_t j = 0; j < blocks.size(); ++j)
+            if (bank->map_.contains(blocks[j]))
+                out.block<2, 2>(offset[i], offset[j]) += bank->map_.covariance(blocks[i], blocks[j]);
+    }
+    return out;
+}
+
+void CompressedJointBank::Mode::propagate(BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,
+                                          const Eigen::Ref<const Eigen::MatrixXd>& F,
+                                          const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                                          const std::vector<Coupling>& couplings) {
+    gaussian.propagate(bank->layout_, block, mean, F, Q, couplings);
+}
+
+BatchLikelihood CompressedJointBank::Mode::update(const std::vector<LinearMeasurement>& batch) {
+    return gaussian.update(bank->layout_, batch, bank->consistency_);
+}
+
+}  // namespace slamot
