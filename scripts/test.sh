@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 trap 'echo "test: failed at: $BASH_COMMAND" >&2' ERR
 
 echo "== packages"
-scripts/install_packages.sh build run test
+scripts/install_packages.sh build run test study
 echo "== release build, warnings as errors"
 cmake --preset ci >/dev/null
 cmake --build --preset ci

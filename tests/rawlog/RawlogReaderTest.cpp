@@ -8,6 +8,7 @@
 
 #include "rawlog/TestLogs.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/rawlog/MemoryLog.h"
 #include "slamot/rawlog/RawlogReader.h"
 
 namespace slamot::test {
@@ -253,6 +254,40 @@ TEST_F(Reader, MrptsOwnDemoLog) {
     EXPECT_EQ(log.entries.size() - increments, 250u);
     EXPECT_EQ(log.entries.front().stamp, action_frame_epoch);
     EXPECT_EQ(log.entries.back().stamp, later(action_frame_epoch, 25.0));  // 250 steps of 0.1 s
+}
+
+// What the reader makes of a file, a MemoryLog makes of the same observations: order, drops and all.
+TEST_F(Reader, AMemoryLogGivesTheSameEntries) {
+    auto observations = std::make_shared<std::vector<mrpt::obs::CObservation::Ptr>>();
+    const auto add = [&](mrpt::obs::CObservation::Ptr observation) { observations->push_back(observation); };
+    add(detectionsAt(10.0, "landmarks", {1}));
+    add(odometryAt(10.0, 0));
+    add(odometryAt(12.0, 2));
+    add(odometryAt(11.5, 1));  // within the window
+    add(odometryAt(10.5, 1));  // too late
+    auto no_stamp = odometryAt(12.5, 1);
+    no_stamp->timestamp = INVALID_TIMESTAMP;
+    add(no_stamp);
+    RawlogWriter writer(path("a.rawlog"));
+    for (const auto& observation : *observations) writer.write(*observation);
+    writer.close();
+
+    RawlogReader file(path("a.rawlog"), {});
+    MemoryLog memory(observations, {});
+    int entries = 0;
+    while (const auto expected = file.next()) {
+        const auto entry = memory.next();
+        ASSERT_TRUE(entry);
+        EXPECT_EQ(entry->stamp, expected->stamp);
+        EXPECT_EQ(entry->position, expected->position);
+        EXPECT_EQ(entry->observation->sensorLabel, expected->observation->sensorLabel);
+        ++entries;
+    }
+    EXPECT_EQ(entries, 4);
+    EXPECT_FALSE(memory.next());
+    EXPECT_EQ(memory.end(), LogEnd::clean);
+    EXPECT_EQ(memory.drops().rows(), file.drops().rows());
+    EXPECT_EQ(memory.drops().total(), 2);
 }
 
 }  // namespace

@@ -275,6 +275,7 @@ TEST(EstimateHashTest, EqualForEqualRunsAndDifferentForAnyOther) {
 TEST(StepTimerTest, PercentilesOfTheTimeBetweenOutputs) {
     run::StepTimer timer;
     EXPECT_TRUE(std::isnan(timer.percentile(0.5)));
+    EXPECT_TRUE(std::isnan(timer.mean()));
     for (int i = 1; i <= 4; ++i) {
         Step prediction = emptyStep(i), update = emptyStep(i + 0.5, true);
         prediction.times.predict = 1.0 * i;
@@ -288,6 +289,7 @@ TEST(StepTimerTest, PercentilesOfTheTimeBetweenOutputs) {
     EXPECT_EQ(timer.percentile(0.5), 2.5);
     EXPECT_EQ(timer.percentile(0.51), 3.5);
     EXPECT_EQ(timer.percentile(1), 4.5);
+    EXPECT_EQ(timer.mean(), 3.0);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const PluginRegistry& registry() {
 
 class RunJobTest : public FolderTest {
   protected:
-    run::RunResult runLog(const std::string& log, const std::string& config,
+    run::JobResult runLog(const std::string& log, const std::string& config,
                           const std::string& out = "out") const {
         run::RunRequest request;
         request.config = Config::fromText(config, "my.ini");
@@ -250,7 +250,7 @@ using Table = std::vector<std::vector<double>>;
 /// Paper 1's golden run (tests/data/golden/paper1): the same inputs as
 /// tests/core/estimation/GoldenRunTest.cpp, but written into a rawlog and taken all the way through reader,
 /// pipeline, plugin and files.
-class GoldenRawlogTest : public RunJobTest, public testing::WithParamInterface<const char*> {
+class GoldenImmRawlogTest : public RunJobTest {
   protected:
     static constexpr double dt = 0.15, wheelbase = 4;
 
@@ -285,6 +285,8 @@ class GoldenRawlogTest : public RunJobTest, public testing::WithParamInterface<c
         writeLog(path("golden.rawlog"), log);
     }
 };
+
+class GoldenRawlogTest : public GoldenImmRawlogTest, public testing::WithParamInterface<const char*> {};
 
 /// Ranges and bearings are floats in a log: the golden run's makers state 1e-4.
 void expectNear(double value, double expected, const std::string& what) {
@@ -333,6 +335,35 @@ TEST_P(GoldenRawlogTest, AgreesWithTheTrace) {
         expectNear(l.covariance(0, 0), row[4], where);
         expectNear(l.covariance(1, 1), row[5], where);
         expectNear(l.covariance(0, 1), row[6], where);
+    }
+}
+
+TEST_F(GoldenImmRawlogTest, AgreesWithTheTrace) {
+    writeGoldenLog();
+    run::RunRequest request;
+    request.config = Config::fromFile(std::string(SLAMOT_SOURCE_DIR) + "/config/runs/paper1_imm.ini");
+    request.config.set("imm_slamot", "consistency", "classic");
+    request.config.set("imm_slamot", "likelihood", "marginal");
+    request.log_file = path("golden.rawlog");
+    request.out_folder = path("out");
+    run::runLog(request, registry());
+
+    const eval::RunRecord run = eval::readRun(path("out"));
+    EXPECT_EQ(run.mode_names, (std::vector<std::string>{"cv", "ca"}));
+    const Table expected = golden("expect_imm_classic_marginal_likelihood.csv");
+    ASSERT_EQ(run.trajectory.size(), 201u);
+    for (std::size_t k = 0; k <= 200; ++k) {
+        const auto& row = expected[k];
+        const std::string where = "step " + std::to_string(k);
+        const auto& [robot, covariance] = run.trajectory[k].robot;
+        for (int i = 0; i < 3; ++i) expectNear(robot.vector()(i), row[1 + i], where);
+        for (int i = 0; i < 3; ++i) expectNear(covariance(i, i), row[10 + i], where);
+        const TrackEstimate& target = run.tracks.at(run.trajectory[k].stamp).at(0);
+        for (int i = 0; i < 6; ++i) expectNear(target.mean(i), row[4 + i], where);
+        for (int i = 0; i < 6; ++i) expectNear(target.covariance(i, i), row[13 + i], where);
+        ASSERT_EQ(target.mode_probabilities.size(), 2u);
+        expectNear(target.mode_probabilities[0], row[22], where);
+        if (HasFailure()) break;
     }
 }
 

@@ -139,12 +139,13 @@ class PipelineTest : public testing::Test {
     std::shared_ptr<Spy> spy = std::make_shared<Spy>();
     CollectingSink sink;
     const Truth* truth = nullptr;
+    int threads = 1;  ///< given to the estimator
     std::unique_ptr<run::Pipeline> pipeline;
 
     void begin() {
         spy->initialize(Config());
         pipeline =
-            std::make_unique<run::Pipeline>(config, *spy, nullptr, truth, 1, std::vector<run::Sink*>{&sink});
+            std::make_unique<run::Pipeline>(config, *spy, nullptr, truth, threads, std::vector<run::Sink*>{&sink});
     }
     void push(const std::vector<mrpt::obs::CObservation::Ptr>& observations) {
         if (!pipeline) begin();

@@ -23,6 +23,8 @@ MAY_INCLUDE = {
     "eval": {"core", "rawlog"},
     "run": {"core", "rawlog", "sim", "eval"},
     "report": {"core", "rawlog", "sim", "eval", "run"},
+    "study": {"core", "rawlog", "sim", "eval", "run", "report"},
+    "study": {"core", "rawlog", "sim", "eval", "run", "report"},
 }
 # Estimation itself: Eigen and the standard library only.
 WITHOUT_MRPT = ["models", "estimation", "association"]

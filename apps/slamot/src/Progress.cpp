@@ -15,7 +15,7 @@ Progress::~Progress() {
     if (drawn_) fmt::print(stderr, "\r{:79}\r", "");
 }
 
-void Progress::show(double done) {
+void Progress::show(double done, const std::string& detail) {
     if (quiet_) return;
     const auto now = Clock::now();
     const auto wait = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(5000);
@@ -24,7 +24,8 @@ void Progress::show(double done) {
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const double part = std::clamp(done, 0.0, 1.0);
     const std::string left = part > 0 ? fmt::format("{:.0f} s left", elapsed * (1 - part) / part) : "";
-    const std::string text = fmt::format("{} {:3.0f} % {:.0f} s, {}", what_, 100 * part, elapsed, left);
+    const std::string text = fmt::format("{} {:3.0f} % {:.0f} s, {}{}{}", what_, 100 * part, elapsed, left,
+                                         detail.empty() || left.empty() ? "" : ", ", detail);
     if (!terminal_) {
         fmt::print(stderr, "{}\n", text);
         return;

@@ -9,8 +9,8 @@ class Progress {
    public:
     Progress(std::string what, bool quiet);
     ~Progress();
-    /// Part done, 0 to 1. Cheap to call often.
-    void show(double done);
+    /// Part done, 0 to 1, and what there is to say beside it. Cheap to call often.
+    void show(double done, const std::string& detail = {});
 
    private:
     using Clock = std::chrono::steady_clock;

@@ -27,7 +27,7 @@ std::string truthFolder(const Options& options) {
     return std::filesystem::is_directory(beside) ? beside : std::string();
 }
 
-void writeOverview(const run::RunResult& result, const Truth* truth, const Options& options) {
+void writeOverview(const run::JobResult& result, const Truth* truth, const Options& options) {
     report::OverviewText text;
     text.title = fmt::format("{} on {}", result.summary["estimator"].get<std::string>(),
                              std::filesystem::path(options.log).filename().string());
@@ -38,7 +38,7 @@ void writeOverview(const run::RunResult& result, const Truth* truth, const Optio
     }
 }
 
-void printSummary(const run::RunResult& result, const Options& options, const Verbosity& verbosity) {
+void printSummary(const run::JobResult& result, const Options& options, const Verbosity& verbosity) {
     const auto& counts = result.summary["counts"];
     const auto& time = result.summary["time"];
     fmt::print("{} on {}: {}\n", result.summary["estimator"].get<std::string>(), options.log, toText(result.status));
@@ -87,7 +87,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
     }
 
     const PluginRegistry registry = PluginRegistry::discover();
-    run::RunResult result;
+    run::JobResult result;
     {
         Progress progress("running", verbosity.quiet);
         request.progress = [&](double done) { progress.show(done); };

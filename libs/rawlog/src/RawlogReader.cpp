@@ -25,19 +25,9 @@ ParameterTable describe(LogParameters& parameters) {
     return table;
 }
 
-void DropTable::add(const std::string& sensor, const std::string& reason, std::int64_t count) {
-    rows_[{sensor, reason}] += count;
-}
-
-std::int64_t DropTable::total() const {
-    std::int64_t sum = 0;
-    for (const auto& [row, count] : rows_) sum += count;
-    return sum;
-}
-
 struct RawlogReader::Impl {
     Impl(const std::string& file_name, const LogParameters& log_parameters)
-        : file(file_name), parameters(log_parameters), objects(file), queue(log_parameters.reorder_window) {
+        : file(file_name), parameters(log_parameters), objects(file), queue(log_parameters.reorder_window, drops) {
         // The first object that is part of a log tells the format.
         while ((held = objects.next()) && !isAction(*held) && !isFrame(*held) && !isObservation(*held))
             dropOther(*held);
@@ -76,24 +66,12 @@ struct RawlogReader::Impl {
             if (!object)
                 at_end = true;
             else if (isObservation(*object))
-                enqueue(*object);
+                queue.push(std::dynamic_pointer_cast<mrpt::obs::CObservation>(object->object), object->position);
             else if (isAction(*object) || isFrame(*object))
                 drops.add("", "frame-among-observations");
             else
                 dropOther(*object);
         }
-    }
-
-    void enqueue(const LogObject& object) {
-        auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object.object);
-        const auto stamp = usableStamp(observation->timestamp);
-        if (!stamp) {
-            drops.add(observation->sensorLabel, "no-stamp");
-            return;
-        }
-        for (const auto& [sensor, reason] :
-             queue.push({*stamp, std::move(observation), std::nullopt, object.position}))
-            drops.add(sensor, reason);
     }
 
     std::optional<LogEntry> nextOfFrames() {
@@ -189,7 +167,7 @@ struct RawlogReader::Impl {
     LogFormat format = LogFormat::observations;
     bool at_end = false, timed_by_step = false;
 
-    ReorderQueue queue;  // observation logs
+    ObservationQueue queue;  // observation logs
 
     FramePairer pairer;  // action-frame logs
     std::deque<LogEntry> ready;

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include "ActionFrames.h"
+
 namespace slamot {
 
 int orderRank(const mrpt::obs::CObservation& observation) {
@@ -68,6 +70,16 @@ std::optional<LogEntry> ReorderQueue::pop(bool flush) {
     std::optional<LogEntry> entry = std::move(first->second);
     waiting_.erase(first);
     return entry;
+}
+
+void ObservationQueue::push(mrpt::obs::CObservation::Ptr observation, std::int64_t position) {
+    const auto stamp = usableStamp(observation->timestamp);
+    if (!stamp) {
+        drops_.add(observation->sensorLabel, "no-stamp");
+        return;
+    }
+    for (const auto& [sensor, reason] : queue_.push({*stamp, std::move(observation), std::nullopt, position}))
+        drops_.add(sensor, reason);
 }
 
 }  // namespace slamot

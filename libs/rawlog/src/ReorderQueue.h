@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "slamot/rawlog/RawlogReader.h"
+#include "slamot/rawlog/LogSource.h"
 
 namespace slamot {
 
@@ -44,6 +44,18 @@ class ReorderQueue {
     std::optional<LogEntry> ahead_;  ///< set aside
     std::optional<std::int64_t> newest_;
     std::map<Key, LogEntry> waiting_;
+};
+
+/// The queue of a whole log: takes observations as they come and counts what it drops.
+class ObservationQueue {
+  public:
+    ObservationQueue(double window, DropTable& drops) : queue_(window), drops_(drops) {}
+    void push(mrpt::obs::CObservation::Ptr observation, std::int64_t position);
+    std::optional<LogEntry> pop(bool flush) { return queue_.pop(flush); }
+
+  private:
+    ReorderQueue queue_;
+    DropTable& drops_;
 };
 
 }  // namespace slamot

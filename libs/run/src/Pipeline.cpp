@@ -21,25 +21,30 @@ namespace {
 /// drives through, little enough to hold.
 constexpr double longest_wait = 30.0;
 
-/// CPU time of the whole process [s]: what an estimator's threads use counts too.
-double cpuSeconds() {
+/// CPU time [s] of this thread or, so that what an estimator's threads use counts too, of the whole process.
+double cpuSeconds(bool whole_process) {
     timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(whole_process ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Adds the wall and CPU time of its life to a stage.
 class StageClock {
    public:
-    StageClock(double& wall, double& cpu)
-        : wall_(wall), cpu_(cpu), wall_begin_(std::chrono::steady_clock::now()), cpu_begin_(cpuSeconds()) {}
+    StageClock(double& wall, double& cpu, int threads)
+        : wall_(wall),
+          cpu_(cpu),
+          whole_process_(threads > 1),
+          wall_begin_(std::chrono::steady_clock::now()),
+          cpu_begin_(cpuSeconds(whole_process_)) {}
     ~StageClock() {
-        cpu_ += cpuSeconds() - cpu_begin_;
+        cpu_ += cpuSeconds(whole_process_) - cpu_begin_;
         wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin_).count();
     }
 
    private:
     double &wall_, &cpu_;
+    bool whole_process_;
     std::chrono::steady_clock::time_point wall_begin_;
     double cpu_begin_;
 };
@@ -265,7 +270,7 @@ void Pipeline::predictTo(OdometryIncrement& rest, Stamp stamp) {
         rest = pieces.after;
     }
     closeStep();
-    const StageClock clock(step_.times.predict, step_.times.predict_cpu);
+    const StageClock clock(step_.times.predict, step_.times.predict_cpu, threads_);
     estimator_.predict(piece);
 }
 
@@ -276,16 +281,16 @@ void Pipeline::take(const Held& held) {
     for (const RangeBearingReading& reading : held.readings) appendReading(reading, range_bearing);
     std::vector<Detected> detected;
     for (const auto& scan : held.scans) {
-        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu, threads_);
         detected.push_back(detector_->detect(*scan, estimator_.robot()));
         appendSet(detected.back().detections, range_bearing);
     }
     {
-        const StageClock clock(step_.times.update, step_.times.update_cpu);
+        const StageClock clock(step_.times.update, step_.times.update_cpu, threads_);
         step_.report = estimator_.update(set);
     }
     for (std::size_t i = 0; i < held.scans.size(); ++i) {
-        const StageClock clock(step_.times.detect, step_.times.detect_cpu);
+        const StageClock clock(step_.times.detect, step_.times.detect_cpu, threads_);
         detector_->integrate(*held.scans[i], estimator_.robot(), detected[i].classes);
     }
     step_.has_detections = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace slamot::run {
 
@@ -44,6 +45,10 @@ void StepTimer::step(const Step& step) {
     if (!step.has_detections) return;
     seconds_.push_back(pending_);
     pending_ = 0;
+}
+
+double StepTimer::mean() const {
+    return std::accumulate(seconds_.begin(), seconds_.end(), 0.0) / static_cast<double>(seconds_.size());
 }
 
 double StepTimer::percentile(double q) const {

@@ -177,7 +177,9 @@ AssembledRun assembleRun(const Config& config, const PluginRegistry& registry) {
         assembled.detector = registry.createDetector(c.detector);
         for (const ParameterTable& table : assembled.detector->parameterTables()) known.push_back(table.section());
     }
-    known.push_back("eval");
+    const ParameterTable evaluation = eval::describe(assembled.evaluation);
+    load(evaluation, config);
+    known.push_back(evaluation.section());
     for (const std::string& section : checkOtherPlugins(config, known, registry)) known.push_back(section);
     requireKnownSections(config, known);
 

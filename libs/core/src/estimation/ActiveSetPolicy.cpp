@@ -14,7 +14,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
               "Landmarks are brought in up to (1 + this) ranges away.")
         .real("keep_margin", p.keep_margin, "-", Interval::nonNegative(),
               "They are kept up to (1 + this) ranges away; more than activate_margin.")
-        .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, pi),
+        .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, 180),
               "The same beyond the edges of a field of view below 360 deg; twice that for keeping.")
         .real("base_growth", p.base_growth, "-", Interval::atLeast(2.1),
               "Commit when the base has more than this times the active state's dimensions.")

@@ -34,13 +34,15 @@ void DenseJointBank::remove(BlockId id) {
 }
 
 void DenseJointBank::mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) {
-    if (modes_.size() == 1) return;
-    mixed_.resize(modes_.size());
+    if (mu.size() == 1) return;
+    const auto count = static_cast<std::size_t>(mu.cols());
+    mixed_.resize(count);
     std::vector<const BlockGaussian*> modes;
     for (const Mode& mode : modes_) modes.push_back(&mode.gaussian);
-    for (std::size_t j = 0; j < modes_.size(); ++j)
+    for (std::size_t j = 0; j < count; ++j)
         mixed_[j].setMixture(layout_, modes, mu.col(static_cast<Eigen::Index>(j)), consistency_);
-    for (std::size_t j = 0; j < modes_.size(); ++j) std::swap(modes_[j].gaussian, mixed_[j]);
+    modes_.resize(count, Mode(*this));
+    for (std::size_t j = 0; j < count; ++j) std::swap(modes_[j].gaussian, mixed_[j]);
 }
 
 void DenseJointBank::activate(const std::vector<BlockId>& landmarks) {

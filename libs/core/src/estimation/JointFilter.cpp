@@ -1,176 +1,195 @@
 #include "slamot/core/estimation/JointFilter.h"
 
-#include <cmath>
-
-#include "slamot/core/estimation/RangeBearingUpdate.h"
+#include "slamot/core/estimation/BankedImm.h"
 
 namespace slamot {
+namespace {
+
+std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p,
+                                                  const RobotMotionParameters& motion) {
+    return std::make_shared<const ModalSettings>(ModalSettings{motion,
+                                                               {p.outliers, p.gate_probability},
+                                                               p.target_velocity_std,
+                                                               p.target_acceleration_std,
+                                                               chainOf(p.imm),
+                                                               initialProbabilities(p.imm),
+                                                               p.imm.likelihood});
+}
+
+}  // namespace
 
 JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMotionParameters& motion)
-    : parameters_(parameters), motion_(motion) {}
+    : parameters_(parameters),
+      settings_(settingsFrom(parameters, motion)),
+      models_(modelsOf(parameters.imm)) {
+    if (models_.empty()) models_.push_back(parameters_.target);
+}
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    bank_ = makeJointBank(parameters_.engine, pose, parameters_.consistency, 1);
+    belief_ = std::make_unique<JointImm>(settings_,
+                                         makeJointBank(parameters_.engine, pose, parameters_.consistency, 1));
+    if (parameters_.imm.form == ImmForm::scalable) becomeScalable();
     objects_ = {};
 }
 
-TargetModel JointFilter::targetModelAt(Stamp stamp) const {
-    TargetModel model = parameters_.target;
-    for (const ModelChange& change : parameters_.target_schedule) {
-        if (stamp < later(start_, change.after)) continue;
-        model.kind = change.kind;
-        model.noise_std = change.noise_std;
-    }
-    return model;
+void JointFilter::predict(const OdometryIncrement& odometry) {
+    setModels(odometry.t0);
+    belief_->predict(odometry, models_);
+    endUnseenTracks(odometry.t1);
 }
 
-void JointFilter::predict(const OdometryIncrement& odometry) {
-    const MotionPrediction robot = predictMotion(motion_, belief().mean(robot_block), odometry);
-    bank_->mode(0).propagate(robot_block, robot.pose, robot.F, robot.Q);
-
-    const TargetModel model = targetModelAt(odometry.t0);
-    for (const TrackRecord& track : objects_.tracks()) {
-        const TargetPrediction target = predictTarget(model, belief().mean(track.block), odometry.seconds());
-        bank_->mode(0).propagate(track.block, target.mean, target.F, target.Q);
+void JointFilter::setModels(Stamp stamp) {
+    if (!parameters_.imm.modes.empty()) return;
+    models_.front() = parameters_.target;
+    for (const ModelChange& change : parameters_.target_schedule) {
+        if (stamp < later(start_, change.after)) continue;
+        models_.front().kind = change.kind;
+        models_.front().noise_std = change.noise_std;
     }
-    endUnseenTracks(odometry.t1);
+}
+
+UpdateReport JointFilter::update(const DetectionSet& set) {
+    const RangeBearingSet& seen = set.rangeBearing();
+    UpdateReport report;
+    report.innovations.reserve(seen.detections.size());
+    known_.clear();
+    for (std::size_t i = 0; i < seen.detections.size(); ++i)
+        report.innovations.push_back(associate(seen.detections[i], static_cast<int>(i)));
+
+    belief_->update(seen, known_, report.innovations);
+
+    for (const Innovation& innovation : report.innovations) markSeen(innovation, set.stamp);
+    for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
+        for (Innovation& innovation : report.innovations)
+            if (innovation.outcome == Outcome::initiated && innovation.kind == kind)
+                initiate(set, innovation);
+    return report;
+}
+
+// --- life of objects
+// ---------------------------------------------------------------------------------------------
+
+Innovation JointFilter::associate(const RangeBearingDetection& detection, int index) {
+    Innovation innovation;
+    innovation.detection = index;
+    innovation.kind = detection.kind;
+    if (!detection.source.valid() || detection.kind == ObjectKind::unknown) return innovation;
+
+    innovation.outcome = Outcome::initiated;
+    if (detection.kind == ObjectKind::mover) {
+        const TrackRecord* track = objects_.trackBySource(detection.source);
+        if (!track) return innovation;
+        innovation.track = track->id;
+        known_.targets.push_back({index, track->block});
+        known_.blocks.push_back(track->block);
+    } else {
+        const LandmarkRecord* landmark = objects_.landmarkBySource(detection.source);
+        if (!landmark) return innovation;
+        innovation.landmark = landmark->id;
+        known_.landmarks.push_back({index, landmark->block});
+        known_.blocks.push_back(landmark->block);
+    }
+    return innovation;
+}
+
+void JointFilter::markSeen(const Innovation& innovation, Stamp now) {
+    if (innovation.outcome != Outcome::updated && innovation.outcome != Outcome::inflated) return;
+    if (innovation.kind == ObjectKind::mover)
+        objects_.markSeen(innovation.track, now);
+    else
+        objects_.markSeen(innovation.landmark, now);
+}
+
+void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
+    const RangeBearingSet& seen = set.rangeBearing();
+    const RangeBearingDetection& detection = seen.detections[innovation.detection];
+    const Pose2& sensor = seen.sensors[detection.sensor].pose;
+    const bool mover = innovation.kind == ObjectKind::mover;
+    const bool known = mover ? objects_.trackBySource(detection.source) != nullptr
+                             : objects_.landmarkBySource(detection.source) != nullptr;
+    // Known by now: the same new object twice in one batch, and the first has started it.
+    if (known || (mover && !admitTarget())) {
+        innovation.outcome = Outcome::ignored;
+        return;
+    }
+    if (mover)
+        innovation.track =
+            objects_.addTrack(belief_->addTarget(detection, sensor), detection.source, set.stamp).id;
+    else
+        innovation.landmark =
+            objects_.addLandmark(belief_->addLandmark(detection, sensor), detection.source, set.stamp).id;
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {
     for (std::size_t i = objects_.tracks().size(); i-- > 0;) {
         const TrackRecord track = objects_.tracks()[i];
         if (secondsBetween(track.last_seen, now) <= parameters_.target_max_unseen) continue;
-        bank_->remove(track.block);
+        belief_->removeTarget(track.block);
         objects_.removeTrack(track.id);
     }
+    if (objects_.tracks().empty() && parameters_.imm.form == ImmForm::automatic) becomeExact();
 }
 
-UpdateReport JointFilter::update(const DetectionSet& set) {
-    attend(set);
-    UpdateReport report;
-    batch_.clear();
-    const int count = static_cast<int>(set.rangeBearing().detections.size());
-    report.innovations.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) report.innovations.push_back(match(set, i));
+// --- forms of the IMM
+// --------------------------------------------------------------------------------------------
 
-    bank_->mode(0).update(batch_);
-
-    for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
-        for (Innovation& innovation : report.innovations)
-            if (innovation.outcome == Outcome::initiated && innovation.kind == kind) initiate(set, innovation);
-    return report;
+bool JointFilter::admitTarget() {
+    const bool room = settings_->chain.modes() == 1 ||
+                      objects_.tracks().size() < static_cast<std::size_t>(parameters_.imm.max_exact_targets);
+    if (!room && parameters_.imm.form == ImmForm::automatic) becomeScalable();
+    return room || parameters_.imm.form != ImmForm::exact;
 }
 
-void JointFilter::attend(const DetectionSet& set) {
-    measured_.clear();
-    for (const RangeBearingDetection& detection : set.rangeBearing().detections) {
-        if (!detection.source.valid() || detection.kind != ObjectKind::landmark) continue;
-        if (const LandmarkRecord* landmark = objects_.landmarkBySource(detection.source))
-            measured_.push_back(landmark->block);
-    }
-    const Pose2 robot = Pose2::fromVector(belief().mean(robot_block));
-    const Eigen::Matrix<double, 1, 1> sure(1.0);
-    bank_->attend({robot, set.rangeBearing(), measured_}, sure);
+void JointFilter::becomeScalable() {
+    if (auto* exact = dynamic_cast<JointImm*>(belief_.get()))
+        belief_ = std::make_unique<BankedImm>(settings_, std::move(*exact));
 }
 
-Innovation JointFilter::match(const DetectionSet& set, int index) {
-    const RangeBearingDetection& detection = set.rangeBearing().detections[index];
-    Innovation innovation;
-    innovation.detection = index;
-    innovation.kind = detection.kind;
-    if (!detection.source.valid() || detection.kind == ObjectKind::unknown) return innovation;
-
-    if (detection.kind == ObjectKind::mover) {
-        TrackRecord* track = objects_.trackBySource(detection.source);
-        innovation.outcome = track ? addToBatch(set, index, track->block, innovation) : Outcome::initiated;
-        if (track) innovation.track = track->id;
-        if (track && innovation.outcome != Outcome::rejected) track->last_seen = set.stamp;
-    } else {
-        LandmarkRecord* landmark = objects_.landmarkBySource(detection.source);
-        innovation.outcome = landmark ? addToBatch(set, index, landmark->block, innovation) : Outcome::initiated;
-        if (landmark) innovation.landmark = landmark->id;
-        if (landmark && innovation.outcome != Outcome::rejected) {
-            landmark->last_seen = set.stamp;
-            ++landmark->seen;
-        }
-    }
-    return innovation;
+void JointFilter::becomeExact() {
+    if (auto* scalable = dynamic_cast<BankedImm*>(belief_.get()))
+        belief_ = std::make_unique<JointImm>(settings_, scalable->release());
 }
 
-Outcome JointFilter::addToBatch(const DetectionSet& set, int index, BlockId block, Innovation& innovation) {
-    const RangeBearingSet& seen = set.rangeBearing();
-    const RangeBearingDetection& detection = seen.detections[index];
-    Linearisation linear =
-        linearise(belief(), block, detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
-    innovation.residual = linear.measurement.residual;
-    innovation.covariance = linear.S;
-    innovation.nis = linear.nis;
+// --- estimates
+// ---------------------------------------------------------------------------------------------------
 
-    // NIS of two rows stays below this with gate_probability: the chi-square quantile in closed form.
-    const double gate = -2.0 * std::log1p(-parameters_.gate_probability);
-    Outcome outcome = Outcome::updated;
-    if (linear.nis > gate && parameters_.outliers == OutlierTreatment::reject) return Outcome::rejected;
-    if (linear.nis > gate && parameters_.outliers == OutlierTreatment::inflate) {
-        outcome = Outcome::inflated;
-        linear.measurement.R += (std::pow(linear.nis / gate, 2) - 1.0) * detection.covariance;
-    }
-    batch_.push_back(linear.measurement);
-    return outcome;
-}
-
-void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
-    const RangeBearingSet& seen = set.rangeBearing();
-    const RangeBearingDetection& detection = seen.detections[innovation.detection];
-    const bool mover = innovation.kind == ObjectKind::mover;
-    const bool known = mover ? objects_.trackBySource(detection.source) != nullptr
-                             : objects_.landmarkBySource(detection.source) != nullptr;
-    if (known) {  // the same new object twice in one batch: the first has started it
-        innovation.outcome = Outcome::ignored;
-        return;
-    }
-
-    const FirstSight sight = firstSight(belief(), detection, seen.sensors[detection.sensor].pose, parameters_.consistency);
-    if (!mover) {
-        const BlockId block = bank_->augment(BlockKind::landmark, {sight.position, sight.G, sight.own});
-        innovation.landmark = objects_.addLandmark(block, detection.source, set.stamp).id;
-        return;
-    }
-    // A mover's velocity and acceleration are not seen at first sight: priors around zero.
-    Vector6 mean = Vector6::Zero();
-    mean.head<2>() = sight.position;
-    Eigen::Matrix<double, 6, 3> G = Eigen::Matrix<double, 6, 3>::Zero();
-    G.topRows<2>() = sight.G;
-    Matrix6 own = Matrix6::Zero();
-    own.topLeftCorner<2, 2>() = sight.own;
-    own.diagonal().segment<2>(2).setConstant(std::pow(parameters_.target_velocity_std, 2));
-    own.diagonal().segment<2>(4).setConstant(std::pow(parameters_.target_acceleration_std, 2));
-    const BlockId block = bank_->augment(BlockKind::target, {mean, G, own});
-    innovation.track = objects_.addTrack(block, detection.source, set.stamp).id;
+std::vector<std::string> JointFilter::modeNames() const {
+    std::vector<std::string> names;
+    for (const TargetMode& mode : parameters_.imm.modes) names.push_back(mode.name);
+    return names;
 }
 
 PoseGaussian JointFilter::robot() const {
-    return {Pose2::fromVector(belief().mean(robot_block)), belief().covariance(robot_block, robot_block)};
+    return {Pose2::fromVector(belief_->mean(robot_block)), belief_->covariance(robot_block, robot_block)};
 }
 
 std::vector<TrackEstimate> JointFilter::tracks() const {
     std::vector<TrackEstimate> out;
     out.reserve(objects_.tracks().size());
     for (const TrackRecord& track : objects_.tracks()) {
+        const TargetBelief belief = belief_->target(track.block);
         TrackEstimate estimate;
         estimate.id = track.id;
         estimate.source = track.source;
-        estimate.mean = belief().mean(track.block);
-        estimate.covariance = belief().covariance(track.block, track.block);
+        estimate.mean = belief.mean;
+        estimate.covariance = belief.covariance;
+        if (!parameters_.imm.modes.empty())
+            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
+                                               belief.mode_probabilities.end());
         out.push_back(std::move(estimate));
     }
     return out;
 }
 
 LandmarkEstimate JointFilter::estimateOf(const LandmarkRecord& landmark) const {
-    return {landmark.id,   landmark.source,     belief().mean(landmark.block),
-            belief().covariance(landmark.block, landmark.block),
-            landmark.seen, landmark.first_seen, landmark.last_seen};
+    return {landmark.id,
+            landmark.source,
+            belief_->mean(landmark.block),
+            belief_->covariance(landmark.block, landmark.block),
+            landmark.seen,
+            landmark.first_seen,
+            landmark.last_seen};
 }
 
 std::vector<LandmarkEstimate> JointFilter::landmarks() const {
@@ -197,7 +216,7 @@ JointCovariance JointFilter::jointCovariance() const {
         out.landmarks.push_back(landmark.id);
         blocks.push_back(landmark.block);
     }
-    out.matrix = belief().jointCovariance(blocks);
+    out.matrix = belief_->jointCovariance(blocks);
     return out;
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "TextParts.h"
 #include "slamot/core/estimation/JointFilter.h"
 
 namespace slamot {
@@ -15,19 +15,9 @@ const std::string schedule_expected =
 std::string scheduleText(const std::vector<ModelChange>& schedule) {
     std::string text;
     for (const ModelChange& change : schedule)
-        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after), toText(change.kind),
-                            shortestText(change.noise_std));
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ", ", shortestText(change.after),
+                            toText(change.kind), shortestText(change.noise_std));
     return text.empty() ? "none" : text;
-}
-
-std::vector<std::string> splitAt(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, separator);) {
-        const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
-        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
-    }
-    return parts;
 }
 
 /// Reads a schedule; an entry without a noise has ModelChange's.
@@ -53,20 +43,23 @@ std::optional<std::vector<ModelChange>> scheduleFromText(const std::string& text
     return schedule;
 }
 
-}  // namespace
-
-std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name, const std::string& about) {
+ParameterTable filterTable(JointFilterParameters& p, const std::string& name, const std::string& about) {
     ParameterTable filter(name, about);
-    filter.choice("consistency", p.consistency,
-                  {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
-                  "invariant: covariance transported along updates, second-order range terms; classic: the textbook "
-                  "EKF, which grows over-confident.")
-        .choice("engine", p.engine.kind,
-                {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
-                "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
-                "costs what is near the sensors.");
-    ParameterTable engine = describe(p.engine.active_set, name + ".engine");
+    filter
+        .choice("consistency", p.consistency,
+                {{"invariant", Consistency::invariant}, {"classic", Consistency::classic}},
+                "invariant: covariance transported along updates, second-order range terms; classic: the "
+                "textbook "
+                "EKF, which grows over-confident.")
+        .choice(
+            "engine", p.engine.kind,
+            {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
+            "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
+            "costs what is near the sensors.");
+    return filter;
+}
 
+ParameterTable outlierTable(JointFilterParameters& p, const std::string& name) {
     ParameterTable outliers(name + ".outliers", "What happens to detections whose innovation is unlikely.");
     outliers
         .choice("treatment", p.outliers,
@@ -76,26 +69,62 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
                 "inflate: noise times (NIS / gate)^2; reject: not used; accept: used as if nothing were odd.")
         .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
               "Part of good detections that lie inside the gate.");
+    return outliers;
+}
 
-    ParameterTable target(name + ".target", "Motion and life of tracks.");
-    describe(p.target, target);
+void describeLife(JointFilterParameters& p, ParameterTable& target) {
     target
-        .custom({"schedule", "s", schedule_expected,
-                 "Changes of the model at known times since the start, for all movers: a filter that is told the mode.",
-                 [&p](const std::string& text) -> std::optional<std::string> {
-                     auto schedule = scheduleFromText(text);
-                     if (!schedule) return schedule_expected;
-                     p.target_schedule = std::move(*schedule);
-                     return std::nullopt;
-                 },
-                 [&p] { return scheduleText(p.target_schedule); }})
         .real("velocity_std", p.target_velocity_std, "m/s", Interval::positive(),
               "Prior of each velocity component at first sight.")
         .real("acceleration_std", p.target_acceleration_std, "m/s^2", Interval::nonNegative(),
               "Prior of each acceleration component at first sight.")
         .real("max_unseen", p.target_max_unseen, "s", Interval::positiveOrInfinite(),
               "A track not seen for longer ends; inf keeps it.");
-    return {filter, engine, outliers, target};
+}
+
+}  // namespace
+
+std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name,
+                                     const std::string& about) {
+    ParameterTable target(name + ".target", "Motion and life of tracks.");
+    describe(p.target, target);
+    target.custom({"schedule", "s", schedule_expected,
+                   "Changes of the model at known times since the start, for all movers: a filter that is "
+                   "told the mode.",
+                   [&p](const std::string& text) -> std::optional<std::string> {
+                       auto schedule = scheduleFromText(text);
+                       if (!schedule) return schedule_expected;
+                       p.target_schedule = std::move(*schedule);
+                       return std::nullopt;
+                   },
+                   [&p] { return scheduleText(p.target_schedule); }});
+    describeLife(p, target);
+    return {filterTable(p, name, about), describe(p.engine.active_set, name + ".engine"),
+            outlierTable(p, name), target};
+}
+
+std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name,
+                                        const std::string& about) {
+    ParameterTable filter = filterTable(p, name, about);
+    filter
+        .choice("likelihood", p.imm.likelihood,
+                {{"conditional", ModeLikelihood::conditional}, {"marginal", ModeLikelihood::marginal}},
+                "What makes a mode likely: the mover's innovation given the landmarks' of the same batch, or "
+                "alone.")
+        .choice("form", p.imm.form,
+                {{"auto", ImmForm::automatic}, {"exact", ImmForm::exact}, {"scalable", ImmForm::scalable}},
+                "exact: a joint Gaussian for each combination of the movers' modes; scalable: one joint "
+                "Gaussian and a "
+                "bank of modes for each mover; auto: exact up to max_exact_targets, scalable from the next "
+                "mover on "
+                "until all tracks have ended.")
+        .integer("max_exact_targets", p.imm.max_exact_targets, Interval::between(1, 4),
+                 "Movers in the exact form at most; where form = exact, further ones are ignored.");
+    ParameterTable modes(name + ".modes", "Modes of movers and how movers change between them.");
+    describe(p.imm, modes);
+    ParameterTable target(name + ".target", "Life of tracks.");
+    describeLife(p, target);
+    return {filter, describe(p.engine.active_set, name + ".engine"), outlierTable(p, name), modes, target};
 }
 
 }  // namespace slamot

@@ -21,6 +21,17 @@ void ObjectCatalogue::removeTrack(TrackId id) {
                   tracks_.end());
 }
 
+void ObjectCatalogue::markSeen(LandmarkId id, Stamp now) {
+    LandmarkRecord& landmark = landmarks_.at(static_cast<std::size_t>(id.value));
+    landmark.last_seen = now;
+    ++landmark.seen;
+}
+
+void ObjectCatalogue::markSeen(TrackId id, Stamp now) {
+    for (TrackRecord& track : tracks_)
+        if (track.id == id) track.last_seen = now;
+}
+
 LandmarkRecord* ObjectCatalogue::landmarkBySource(SourceId source) {
     const auto found = landmark_by_source_.find(source);
     return found == landmark_by_source_.end() ? nullptr : &landmarks_[found->second];

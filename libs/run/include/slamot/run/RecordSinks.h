@@ -47,6 +47,8 @@ class StepTimer : public Sink {
     void step(const Step& step) override;
     /// Quantile q of the time between two outputs with detections, prediction included; NaN without any.
     double percentile(double q) const;
+    /// NaN without any.
+    double mean() const;
     std::size_t count() const { return seconds_.size(); }
 
    private:

@@ -10,6 +10,7 @@
 
 #include "slamot/core/config/Config.h"
 #include "slamot/core/plugin/PluginRegistry.h"
+#include "slamot/eval/Options.h"
 #include "slamot/rawlog/RawlogReader.h"
 
 namespace slamot::run {
@@ -69,6 +70,7 @@ struct AssembledRun {
     RunConfig config;
     std::shared_ptr<Estimator> estimator;  ///< initialized, not started
     std::shared_ptr<Detector> detector;    ///< null for none
+    eval::EvaluationOptions evaluation;
     std::string canonical_config;
 };
 AssembledRun assembleRun(const Config& config, const PluginRegistry& registry);

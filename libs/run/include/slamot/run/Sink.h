@@ -14,7 +14,7 @@ namespace slamot::run {
 enum class RunStatus { complete, stopped, truncated, corrupt, failed };
 const char* toText(RunStatus status);
 
-/// Wall time and CPU time [s] by stage; CPU time of all threads.
+/// Wall time and CPU time [s] by stage; CPU time of all threads that the estimator was given.
 struct StageTimes {
     double predict = 0, detect = 0, update = 0;
     double predict_cpu = 0, detect_cpu = 0, update_cpu = 0;

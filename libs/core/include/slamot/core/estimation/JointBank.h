@@ -69,6 +69,7 @@ class JointBank {
     virtual void remove(BlockId block) = 0;
 
     /// Every mode j becomes the moment-matched mixture of all modes i with weights mu(i, j), columns summing to 1.
+    /// The bank has as many modes afterwards as mu has columns: a column of one weight 1 is a copy of that mode.
     /// In the invariant core each mode's covariance is transported to the mean of the mode with the largest weight
     /// in the mixture, matched there, and the result transported to the mixture's mean.
     virtual void mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) = 0;

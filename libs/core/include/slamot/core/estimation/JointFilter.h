@@ -1,6 +1,7 @@
 #pragma once
-// The joint EKF over robot, movers and landmarks (paper 1, section 2.2): what ekf_slamot is, and what the other
-// joint estimators are composed of.
+// The joint filter over robot, movers and landmarks (paper 1, section 2): the EKF of ekf_slamot, the IMM of
+// imm_slamot, and what the other joint estimators are composed of. Here objects are found, started and ended;
+// how movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
 #include <memory>
 #include <vector>
 
@@ -9,21 +10,13 @@
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/estimation/JointEngine.h"
+#include "slamot/core/estimation/ModalState.h"
 #include "slamot/core/estimation/ObjectCatalogue.h"
-#include "slamot/core/models/RobotMotion.h"
-#include "slamot/core/models/TargetMotion.h"
 
 namespace slamot {
 
-/// What happens to a detection whose innovation lies outside its gate.
-enum class OutlierTreatment {
-    accept,   ///< nothing: the plain filter
-    inflate,  ///< its noise covariance is multiplied by (NIS / gate)^2
-    reject    ///< it is not used
-};
-
-/// A change of the movers' motion at a known time: a filter that is told the mode. What is not named here stays as
-/// the target model has it.
+/// A change of the movers' motion at a known time: a filter that is told the mode. What is not named here
+/// stays as the target model has it.
 struct ModelChange {
     double after = 0;  ///< [s] since the start; holds for predictions that begin at or after it
     TargetModelKind kind = TargetModelKind::cv;
@@ -44,21 +37,28 @@ struct JointFilterParameters {
     double target_velocity_std = 3.0;      ///< [m/s] at first sight, when nothing is known
     double target_acceleration_std = 2.0;  ///< [m/s^2]
     double target_max_unseen = 5.0;        ///< [s]; a track unseen for longer ends
+
+    /// Where it names modes, movers have these; `target` and its schedule mean nothing then.
+    ImmParameters imm;
 };
 
 /// Tables of the section `[name]` and its parts `[name.engine]`, `[name.outliers]`, `[name.target]`.
 std::vector<ParameterTable> describe(JointFilterParameters& parameters, const std::string& name,
                                      const std::string& about);
+/// The same for a filter of several modes, with `[name.modes]`.
+std::vector<ParameterTable> describeImm(JointFilterParameters& parameters, const std::string& name,
+                                        const std::string& about);
 
 class JointFilter {
-   public:
+  public:
+    /// Throws std::invalid_argument with one sentence when `parameters.imm` does not fit together.
     JointFilter(const JointFilterParameters& parameters, const RobotMotionParameters& motion);
 
     void start(Stamp stamp, const PoseGaussian& pose);
     void predict(const OdometryIncrement& odometry);
     /// One batch: all known objects at once, linearised at the predicted state; then new movers, then new
-    /// landmarks are added. Objects are known by the identity the log gives; detections without one are ignored
-    /// and counted.
+    /// landmarks are added. Objects are known by the identity the log gives; detections without one are
+    /// ignored and counted.
     UpdateReport update(const DetectionSet& detections);
 
     PoseGaussian robot() const;
@@ -67,28 +67,31 @@ class JointFilter {
     std::vector<LandmarkEstimate> landmarks(const std::vector<LandmarkId>& ids) const;
     std::int64_t landmarkCount() const { return static_cast<std::int64_t>(objects_.landmarks().size()); }
     JointCovariance jointCovariance() const;
+    /// Empty for a filter of one target model.
+    std::vector<std::string> modeNames() const;
 
-    const JointBank& state() const { return *bank_; }
+    const JointBank& state() const { return belief_->bank(); }
 
-   private:
-    const JointView& belief() const { return bank_->mode(0); }
-    TargetModel targetModelAt(Stamp stamp) const;
+  private:
+    void setModels(Stamp stamp);
     void endUnseenTracks(Stamp now);
-    /// Tells the engine what is about to be measured.
-    void attend(const DetectionSet& set);
-    /// Finds the detection's object and, where there is one, puts the linearised detection into the batch.
-    Innovation match(const DetectionSet& set, int index);
-    Outcome addToBatch(const DetectionSet& set, int index, BlockId block, Innovation& innovation);
+    /// Finds the detection's object; what has one joins known_.
+    Innovation associate(const RangeBearingDetection& detection, int index);
+    void markSeen(const Innovation& innovation, Stamp now);
     void initiate(const DetectionSet& set, Innovation& innovation);
+    /// Makes room for one more mover; false where the exact form has no more.
+    bool admitTarget();
+    void becomeScalable();
+    void becomeExact();
     LandmarkEstimate estimateOf(const LandmarkRecord& landmark) const;
 
     JointFilterParameters parameters_;
-    RobotMotionParameters motion_;
-    std::unique_ptr<JointBank> bank_;  ///< of one mode
+    std::shared_ptr<const ModalSettings> settings_;
+    std::unique_ptr<ModalState> belief_;
     ObjectCatalogue objects_;
     Stamp start_;
-    std::vector<LinearMeasurement> batch_;  ///< kept for its capacity
-    std::vector<BlockId> measured_;         ///< the same
+    std::vector<TargetModel> models_;  ///< of the modes, now
+    KnownObjects known_;               ///< kept for its capacity
 };
 
 }  // namespace slamot

@@ -30,6 +30,9 @@ class ObjectCatalogue {
     LandmarkRecord& addLandmark(BlockId block, SourceId source, Stamp now);
     TrackRecord& addTrack(BlockId block, SourceId source, Stamp now);
     void removeTrack(TrackId id);
+    /// Another sight of it.
+    void markSeen(LandmarkId id, Stamp now);
+    void markSeen(TrackId id, Stamp now);
 
     /// By the log's identity; null for none.
     LandmarkRecord* landmarkBySource(SourceId source);

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "Command.h"
+#include "Progress.h"
+#include "slamot/study/Checks.h"
+#include "slamot/study/Export.h"
+#include "slamot/study/Page.h"
+#include "slamot/study/Session.h"
+
+namespace slamot::app {
+namespace {
+
+struct Options {
+    study::SessionRequest session;
+    std::string shard, keep;
+    std::vector<std::string> merge;
+    int threads = 1, replicates = 0;
+    bool list = false, check = false, no_run = false;
+    std::string export_folder;
+    std::vector<std::string> pages;
+};
+
+study::Shard shardFrom(const std::string& text) {
+    study::Shard shard;
+    if (text.empty()) return shard;
+    int read = 0;
+    const bool whole = std::sscanf(text.c_str(), "%d/%d%n", &shard.number, &shard.count, &read) == 2 &&
+                       static_cast<std::size_t>(read) == text.size();
+    if (!whole || shard.count < 1 || shard.number < 1 || shard.number > shard.count)
+        throw UsageError(fmt::format("--shard {}: expected k/K with k from 1 to K", text));
+    return shard;
+}
+
+std::string inWords(const study::GridPoint& point) {
+    std::string text;
+    for (const auto& [key, value] : point) text += fmt::format(" {}={}", key, value);
+    return text;
+}
+
+void printPlan(const study::Plan& plan, const std::set<std::string>& done, const study::Shard& shard) {
+    std::size_t worlds = 0, runs = 0;
+    for (const study::WorldPlan& world : plan.worlds) {
+        if (!shard.has(world)) continue;
+        const study::PlannedWorldKind& kind = plan.kinds[world.kind];
+        fmt::print("{} seed {}{}{}\n", plan.nameOf(world), world.world_seed,
+                   kind.scenario ? inWords(plan.study.scenario_grid[world.scenario_point]) : " ",
+                   kind.log_file);
+        for (const study::RunPlan& run : world.runs)
+            fmt::print("  {} {}{}{}\n", run.key, plan.nameOf(run),
+                       inWords(plan.study.config_grid[run.config_point]),
+                       done.count(run.key) ? " (done)" : "");
+        ++worlds;
+        runs += world.runs.size();
+    }
+    fmt::print("{} worlds, {} runs\n", worlds, runs);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Runs what is missing; false when stopped before its end.
+bool runMissing(study::Session& session, const Options& options, const study::Shard& shard,
+                const PluginRegistry& registry, std::chrono::steady_clock::time_point begin,
+                const Verbosity& verbosity) {
+    const std::vector<study::Unit> units = session.missing(shard);
+    study::RunnerOptions how;
+    how.threads = options.threads;
+    how.unit.stop = &interrupted();
+    how.unit.measure_memory = true;
+    how.unit.keep_folder = options.keep;
+    study::StudyProgress last;
+    study::StudyTimes times;
+    {
+        Progress progress("study", verbosity.quiet);
+        how.progress = [&](const study::StudyProgress& now) {
+            last = now;
+            progress.show(static_cast<double>(now.done) / static_cast<double>(now.total),
+                          fmt::format("{}/{} runs, {:.1f}/s, {} failed", now.done, now.total,
+                                      static_cast<double>(now.done) / secondsSince(begin), now.failed));
+        };
+        times = study::runStudy(session.plan(), units, registry, how,
+                                [&](const study::Row& row) { session.store().add(row); });
+    }
+    if (!verbosity.quiet)
+        fmt::print("{}\n", study::timesInWords(last, secondsSince(begin), times.runs_s, options.threads));
+    return !interrupted();
+}
+
+/// The command that makes a page again.
+std::string commandOf(const Options& options, const std::string& page) {
+    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file, options.session.store_file, page);
+}
+
+/// What the rows say, where it was asked for; false when a check failed.
+bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
+    if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
+    const std::vector<study::Row> rows = session.rows();
+    const study::Findings findings{session.plan().study, analysis, rows};
+    study::CheckReport checks;
+    if (options.check) {
+        checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
+        fmt::print("{}", study::toMarkdown(study::checkTable(checks)));
+    }
+    if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
+    for (const std::string& page : options.pages)
+        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)), options.check ? &checks : nullptr);
+    return !options.check || checks.passed();
+}
+
+int studyJob(const Options& options, const Verbosity& verbosity) {
+    const auto begin = std::chrono::steady_clock::now();
+    const study::Shard shard = shardFrom(options.shard);
+    const std::filesystem::path folder = std::filesystem::path(options.session.store_file).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw UsageError(
+            fmt::format("--db {}: there is no folder {}", options.session.store_file, folder.string()));
+
+    const PluginRegistry registry = PluginRegistry::discover();
+    study::Session session(options.session, registry);
+    // A mistake in a table must not come to light after hours of runs.
+    const study::Analysis analysis = study::readAnalysis(session.plan().study);
+    if (options.check && analysis.checks.empty())
+        throw UsageError(fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
+    for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot: {}\n", sentence);
+    if (options.list) {
+        printPlan(session.plan(), session.store().done(session.plan(), true), shard);
+        return exit_success;
+    }
+    bool complete = true;
+    if (!options.merge.empty())
+        session.store().merge(options.merge);
+    else if (!options.no_run)
+        complete = runMissing(session, options, shard, registry, begin, verbosity);
+    const std::string state = session.stateInWords();
+    if (state.find('\n') != std::string::npos)
+        fmt::print(stderr, "slamot: {}\n", state);
+    else if (!verbosity.quiet)
+        fmt::print("{}\n", state);
+    if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
+    return tellFindings(session, analysis, options) ? exit_success : exit_failed;
+}
+
+}  // namespace
+
+void addStudy(CLI::App& app, Action& chosen) {
+    auto* command = app.add_subcommand(
+        "study",
+        "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
+        "study config/studies/consistency.ini --db consistency.db --threads 2");
+    auto options = std::make_shared<Options>();
+    command->add_option("study", options->session.study_file, "Study INI file (doc/studies.md)")->required();
+    command
+        ->add_option("--db", options->session.store_file,
+                     "SQLite file of the rows; what it has is not run again")
+        ->required();
+    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts");
+    command->add_option("--threads", options->threads, "Runs at the same time; rows do not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_option("--replicates", options->replicates, "Instead of [study] replicates")
+        ->check(CLI::Range(1, 1000000));
+    command->add_flag("--short", options->session.short_form,
+                      "As many replicates as [study] short_replicates");
+    command->add_option("--merge", options->merge, "Take the rows of other files of this study; run nothing");
+    command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
+    command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
+    command->add_flag("--no-run", options->no_run, "Run nothing: only what the rows there are say");
+    command->add_flag("--check", options->check, "Compare with the intervals of [check.*]; exit 1 when one fails");
+    command->add_option("--export", options->export_folder, "Folder for all rows, statistics, tables and figures");
+    command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
+    command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
+    command->add_flag("--any-build", options->session.any_build,
+                      "Keep rows that another build of the program made");
+    command->callback([&chosen, options] {
+        if (options->replicates > 0) options->session.replicates = options->replicates;
+        // Looking at the plan uses no row.
+        if (options->list) options->session.any_build = true;
+        chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
+    });
+}
+
+}  // namespace slamot::app

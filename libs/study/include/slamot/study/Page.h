@@ -1,0 +1,36 @@
+#pragma once
+// Tables and figures of a study in a page of the docs, between marks in comments.
+#include <cstddef>
+#include <string>
+
+#include "slamot/study/Checks.h"
+#include "slamot/study/Tables.h"
+
+namespace slamot::study {
+
+/// Where and when a page's figures come from.
+struct Provenance {
+    std::string date;       ///< of today, 2026-01-31
+    std::string processor;  ///< of this machine
+    unsigned cores = 0;
+    std::string command;  ///< makes the page again
+};
+Provenance provenanceHere(const std::string& command);
+
+/// "Measured on 2026-01-31, AMD EPYC, 2 cores, slamot 0.1.0, 1200 runs (3 failed): `slamot study ...`"
+std::string stampLine(const Provenance& provenance, const Findings& findings);
+
+/// Replaces what stands between a mark of this study and the next `<!-- end -->`:
+///
+///     <!-- study NAME table TABLE -->    the Markdown table
+///     <!-- study NAME figure FIGURE -->  an image, drawn to PAGE_FIGURE.svg beside the page
+///     <!-- study NAME checks -->         the table of checks
+///     <!-- study NAME stamp -->          stampLine
+///
+/// Marks of other studies stay as they are. Throws ConfigError, with file and line, for a mark that names
+/// nothing of the study, has no end, or wants checks where `checks` is null, and for a page without a mark of
+/// this study; the page is then as it was. Throws report::ReportError where a figure cannot be drawn.
+void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
+              const CheckReport* checks);
+
+}  // namespace slamot::study

@@ -1,0 +1,43 @@
+#pragma once
+// Figures of a run step by step, by name: what `series` of a study file may list.
+//
+// robot_nees      squared error of the robot's pose weighted by its covariance, with its dimension
+// robot_error     distance of the robot's position from truth [m]
+// heading_error   estimate minus truth, wrapped [rad]
+// target_error    distance of the target's position from truth [m]
+// target_nees     squared error of the target's position weighted by its covariance, with its dimension
+// landmark_count  landmarks in the map
+// p_<mode>        probability of a motion mode of the target's track, for estimators that have that mode
+//
+// The target is the one of lowest id in the truth; its track is the one with that source id or, where no
+// track has a source id, the one of highest existence.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slamot/eval/RunRecord.h"
+#include "slamot/rawlog/Truth.h"
+#include "slamot/run/Sink.h"
+#include "slamot/study/Row.h"
+
+namespace slamot::study {
+
+/// Throws ConfigError, naming the place and the nearest name, for one that is not known.
+void requireKnownSeries(const std::vector<std::string>& names, const std::string& origin);
+
+/// Number of landmarks at every stamp, which no RunRecord keeps.
+class LandmarkCounter : public run::Sink {
+  public:
+    void step(const run::Step& step) override { counts_[step.estimate.stamp] = step.estimate.landmark_count; }
+    const std::map<Stamp, std::int64_t>& counts() const { return counts_; }
+
+  private:
+    std::map<Stamp, std::int64_t> counts_;
+};
+
+/// The series asked for that this run has; `truth` may be null.
+std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
+                                       const std::map<Stamp, std::int64_t>& landmark_counts,
+                                       const Truth* truth);
+
+}  // namespace slamot::study

@@ -1,0 +1,236 @@
+#include "slamot/study/Checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <variant>
+
+#include "CsvLine.h"
+#include "NumberText.h"
+#include "Selected.h"
+
+namespace slamot::study {
+namespace {
+
+/// A value, or why there is none.
+using Outcome = std::variant<double, std::string>;
+
+Outcome valueOr(double value, const std::string& reason) {
+    if (std::isnan(value)) return reason;
+    return value;
+}
+
+/// The cell as far as it has been run, and how many runs the plan has of it.
+struct PlannedCell {
+    Cell cell;
+    std::size_t planned = 0;
+};
+
+PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*>& by_key,
+                        const CheckSpec& check, const std::string& variant) {
+    PlannedCell result;
+    result.cell = {check.source, variant, check.scenario_point, check.config_point, {}};
+    const StudyFile& study = plan.study;
+    for (const WorldPlan& world : plan.worlds) {
+        if (plan.sourceOf(world).name != check.source ||
+            study.scenario_grid[world.scenario_point] != check.scenario_point)
+            continue;
+        for (const RunPlan& run : world.runs) {
+            if (plan.variantOf(run).name != variant ||
+                study.config_grid[run.config_point] != check.config_point)
+                continue;
+            ++result.planned;
+            if (const auto found = by_key.find(run.key); found != by_key.end())
+                result.cell.rows.push_back(found->second);
+        }
+    }
+    return result;
+}
+
+/// Why a cell cannot be judged; empty when it can.
+std::string faultOf(const PlannedCell& planned, const CheckSpec& check, const Plan& plan) {
+    const Cell& cell = planned.cell;
+    if (planned.planned == 0) {
+        std::string why = fmt::format("source '{}' has no world here", cell.source);
+        for (const std::string& reason : plan.skipped) why += "; " + reason;
+        return why;
+    }
+    if (cell.rows.size() < planned.planned)
+        return fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
+                           planned.planned, cell.variant);
+    if (check.figure.empty()) return {};
+    std::size_t without = 0;
+    std::string example;
+    for (const Row* row : cell.rows)
+        if (!std::isfinite(figureOf(*row, check.figure))) {
+            ++without;
+            if (example.empty()) example = row->reason;
+        }
+    if (static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned)) return {};
+    return fmt::format("{} of {} runs of '{}' are without the figure{}{}", without, planned.planned,
+                       cell.variant, example.empty() ? "" : ", the first since: ", example);
+}
+
+Outcome ofSeries(const CheckSpec& check, const Cell& cell) {
+    const auto measured = consistencyOf(cell, check.series);
+    if (!measured) return measured.whyAbsent();
+    switch (check.statistic) {
+        case CheckStatistic::anees:
+            return measured->average;
+        case CheckStatistic::inside:
+            return measured->inside;
+        case CheckStatistic::above:
+            return measured->above;
+        default:
+            return measured->below;
+    }
+}
+
+Outcome ofPairs(const CheckSpec& check, const Cell& cell, const Cell& against, double factor) {
+    const Paired pair = compare(cell, against, check.figure);
+    const std::string none = "no world has the figure in both configs, as something to divide by";
+    switch (check.statistic) {
+        case CheckStatistic::ratio:
+            return valueOr(pair.ratio.mean, none);
+        case CheckStatistic::median_ratio:
+            return valueOr(pair.ratio.median, none);
+        case CheckStatistic::ratio_of_means:
+            return valueOr(pair.mean_a / pair.mean_b, none);
+        case CheckStatistic::mean_difference:
+            return valueOr(factor * pair.difference.mean, none);
+        case CheckStatistic::median_difference:
+            return valueOr(factor * pair.difference.median, none);
+        default:
+            return valueOr(static_cast<double>(pair.smaller) / static_cast<double>(pair.difference.count),
+                           none);
+    }
+}
+
+Outcome ofFigure(const CheckSpec& check, const Cell& cell, double factor) {
+    const Statistic s = statisticOf(figureOf(cell, check.figure));
+    const std::string none = "no run has the figure";
+    switch (check.statistic) {
+        case CheckStatistic::mean:
+            return valueOr(factor * s.mean, none);
+        case CheckStatistic::median:
+            return valueOr(factor * s.median, none);
+        case CheckStatistic::minimum:
+            return valueOr(factor * s.minimum, none);
+        default:
+            return valueOr(factor * s.maximum, none);
+    }
+}
+
+std::string describe(const CheckSpec& check, const Analysis& analysis) {
+    static const std::map<CheckStatistic, std::string> words = {
+        {CheckStatistic::mean, "mean of {}"},
+        {CheckStatistic::median, "median of {}"},
+        {CheckStatistic::minimum, "least {}"},
+        {CheckStatistic::maximum, "largest {}"},
+        {CheckStatistic::ratio, "mean ratio of {}"},
+        {CheckStatistic::median_ratio, "median ratio of {}"},
+        {CheckStatistic::ratio_of_means, "ratio of mean {}"},
+        {CheckStatistic::mean_difference, "mean difference of {}"},
+        {CheckStatistic::median_difference, "median difference of {}"},
+        {CheckStatistic::smaller, "part of worlds with the smaller {}"},
+        {CheckStatistic::anees, "average of {}"},
+        {CheckStatistic::inside, "steps in the band of {}"},
+        {CheckStatistic::above, "steps above the band of {}"},
+        {CheckStatistic::below, "steps below the band of {}"},
+        {CheckStatistic::rate, "part that diverged"}};
+    const std::string& figure = check.figure.empty() ? check.series : check.figure;
+    std::string text = fmt::format(fmt::runtime(words.at(check.statistic)), analysis.label(figure));
+    text += fmt::format(", {}, {}", analysis.label(check.source), analysis.label(check.config));
+    if (!check.against.empty()) text += " to " + analysis.label(check.against);
+    for (const auto* point : {&check.scenario_point, &check.config_point})
+        for (const auto& [address, value] : *point)
+            text += fmt::format(", {} = {}", analysis.label(address), value);
+    return text;
+}
+
+}  // namespace
+
+bool CheckReport::passed() const {
+    const auto is = [](CheckState state) {
+        return [state](const CheckResult& r) { return r.state == state; };
+    };
+    return std::none_of(results.begin(), results.end(), is(CheckState::failed)) &&
+           std::any_of(results.begin(), results.end(), is(CheckState::passed));
+}
+
+CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows,
+                      bool short_form) {
+    std::map<std::string, const Row*> by_key;
+    for (const Row& row : rows) by_key.emplace(row.key, &row);
+
+    CheckReport report;
+    for (const CheckSpec& check : analysis.checks) {
+        CheckResult& result = report.results.emplace_back();
+        result.name = check.name;
+        result.what = describe(check, analysis);
+        result.about = check.about;
+        result.interval = check.interval;
+        if (short_form && !check.short_interval) {
+            result.reason = "not part of the short form";
+            continue;
+        }
+        if (short_form) result.interval = *check.short_interval;
+
+        result.state = CheckState::failed;
+        const PlannedCell planned = plannedCell(plan, by_key, check, check.config);
+        result.reason = faultOf(planned, check, plan);
+        PlannedCell against;
+        if (!check.against.empty() && result.reason.empty()) {
+            against = plannedCell(plan, by_key, check, check.against);
+            result.reason = faultOf(against, check, plan);
+        }
+        if (!result.reason.empty()) continue;
+
+        const double factor = analysis.factor(check.figure);
+        const Outcome outcome =
+            !check.series.empty()    ? ofSeries(check, planned.cell)
+            : !check.against.empty() ? ofPairs(check, planned.cell, against.cell, factor)
+            : check.figure.empty()
+                ? valueOr(divergence(planned.cell, plan.study.parameters.diverged_above).diverged.rate,
+                          "no run says where the robot was in truth")
+                : ofFigure(check, planned.cell, factor);
+        if (const double* value = std::get_if<double>(&outcome)) {
+            result.value = *value;
+            if (result.interval.contains(*value)) result.state = CheckState::passed;
+        } else {
+            result.reason = std::get<std::string>(outcome);
+        }
+    }
+    return report;
+}
+
+Table checkTable(const CheckReport& report) {
+    Table table;
+    table.columns = {{"check", {"check"}, false},
+                     {"what", {"what"}, false},
+                     {"value", {"value"}, true},
+                     {"from", {"from"}, true},
+                     {"to", {"to"}, true},
+                     {"result", {"result"}, false},
+                     {"about", {"about", "reason"}, false}};
+    for (const CheckResult& r : report.results) {
+        const std::string state = r.state == CheckState::passed   ? "passed"
+                                  : r.state == CheckState::failed ? "FAILED"
+                                                                  : "not checked";
+        const std::string separator = r.about.empty() || r.reason.empty() ? "" : "; ";
+        const auto number = [](double value) { return Field{numberText(value, 5), {csvNumber(value)}}; };
+        const auto bound = [](double value) { return Field{csvNumber(value), {csvNumber(value)}}; };
+        table.lines.push_back({{{r.name, {r.name}},
+                                {r.what, {r.what}},
+                                number(r.value),
+                                bound(r.interval.low),
+                                bound(r.interval.high),
+                                {state, {state}},
+                                {r.reason + separator + r.about, {r.about, r.reason}}}});
+    }
+    return table;
+}
+
+}  // namespace slamot::study

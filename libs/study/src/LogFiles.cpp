@@ -1,0 +1,121 @@
+#include "LogFiles.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glob.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "slamot/core/Version.h"
+#include "slamot/core/config/Parameters.h"
+#include "slamot/rawlog/Importer.h"
+#include "slamot/rawlog/LogError.h"
+#include "slamot/rawlog/Sha256.h"
+
+namespace slamot::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Held by one program at a time; the system lets go of it when the program ends, however it ends.
+class FileLock {
+  public:
+    explicit FileLock(const std::string& file)
+        : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
+        int failed = descriptor_ < 0;
+        while (!failed && (failed = flock(descriptor_, LOCK_EX)) && errno == EINTR) failed = 0;
+        if (failed) throw LogError(fmt::format("{}: cannot be locked ({})", file, std::strerror(errno)));
+    }
+    ~FileLock() { close(descriptor_); }
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+  private:
+    int descriptor_;
+};
+
+/// Where the datasets lie: SLAMOT_DATASETS or, for a study in a source tree, the folder beside the tree.
+fs::path datasetsFolder(const StudyFile& study) {
+    if (const char* given = std::getenv("SLAMOT_DATASETS")) return given;
+    return fs::path(study.text.folder()) / "../../../shared/datasets";
+}
+
+std::vector<std::string> matching(const fs::path& pattern) {
+    glob_t found{};
+    std::vector<std::string> files;
+    if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+        files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    globfree(&found);
+    std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
+        return strverscmp(a.c_str(), b.c_str()) < 0;
+    });
+    return files;
+}
+
+const Importer& importerOf(const StudyFile& study, const Source& source) {
+    std::vector<std::string> formats;
+    for (const Importer& importer : importers()) {
+        if (importer.format == source.log->importer) return importer;
+        formats.push_back(importer.format);
+    }
+    const auto near = nearestWord(source.log->importer, formats);
+    throw ConfigError(fmt::format("{}: import = '{}' in [log.{}]{}, expected one of {}",
+                                  study.text.section("log." + source.name).at("import").origin,
+                                  source.log->importer, source.name,
+                                  near ? " (did you mean '" + *near + "'?)" : "", fmt::join(formats, ", ")));
+}
+
+/// The folder with the imported logs, made when it is not there.
+fs::path imported(const Importer& importer, const fs::path& data, const Source& source,
+                  const std::string& work_folder) {
+    const std::string made_from =
+        fmt::format("{}\n{}\n{}", importer.format, fs::absolute(data).string(), version);
+    Sha256 sum;
+    sum.add(made_from.data(), made_from.size());
+    const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, sum.hex().substr(0, 12));
+    std::error_code error;
+    fs::create_directories(work_folder, error);
+    if (error) throw LogError(fmt::format("{}: cannot be made ({})", work_folder, error.message()));
+    const FileLock lock(out.string() + ".lock");
+    if (fs::is_directory(out)) return out;
+    // A killed import leaves its unfinished folder, which never has the final name.
+    const fs::path unfinished = out.string() + ".part";
+    fs::remove_all(unfinished);
+    fs::create_directories(unfinished);
+    // An importer of a single log writes that file, one of several writes a folder.
+    const bool single = source.log->files.find_first_of("*?[") == std::string::npos;
+    importer.run(data.string(), (single ? unfinished / source.log->files : unfinished).string(), {});
+    fs::rename(unfinished, out);
+    return out;
+}
+
+}  // namespace
+
+FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) {
+    const LogSourceFiles& wanted = *source.log;
+    const Importer* importer = wanted.importer.empty() ? nullptr : &importerOf(study, source);
+    fs::path folder = study.text.folder();
+    if (!wanted.folder.empty()) {
+        folder = datasetsFolder(study) / wanted.folder;
+        if (!fs::is_directory(folder))
+            return {{},
+                    fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name,
+                                wanted.folder,
+                                std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
+        if (importer) folder = imported(*importer, folder, source, work_folder);
+    }
+    const std::vector<std::string> files = matching(folder / wanted.files);
+    if (files.empty())
+        return {{},
+                fmt::format("source {} is skipped: no {} in {}", source.name, wanted.files, folder.string())};
+    return {files, {}};
+}
+
+}  // namespace slamot::study

@@ -1,0 +1,149 @@
+#include "slamot/study/Page.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "SectionReader.h"
+#include "slamot/core/Version.h"
+#include "slamot/report/Figure.h"
+#include "slamot/report/FigureWriter.h"
+#include "slamot/run/PartFile.h"
+#include "slamot/study/Figures.h"
+
+namespace slamot::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string processorName() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos)
+            return trimmed(line.substr(line.find(':') + 1));
+    return "unknown processor";
+}
+
+std::vector<std::string> linesOf(const std::string& file) {
+    std::ifstream in(file);
+    if (!in) throw ConfigError(fmt::format("{}: the page cannot be read", file));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// The words of `<!-- study NAME ... -->`; empty for any other line.
+std::vector<std::string> wordsOfMark(const std::string& line) {
+    std::istringstream in(line);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+    if (words.size() < 4 || words[0] != "<!--" || words[1] != "study" || words.back() != "-->") return {};
+    return {words.begin() + 2, words.end() - 1};
+}
+
+/// Makes the content of one mark; figures wait until the whole page is known to be good.
+class Filler {
+  public:
+    Filler(const std::string& page, const Findings& findings, const Provenance& provenance,
+           const CheckReport* checks)
+        : page_(page), findings_(findings), provenance_(provenance), checks_(checks) {}
+
+    /// `words` follow the study's name. Ends with a newline.
+    std::string content(const std::vector<std::string>& words) {
+        const Analysis& analysis = findings_.analysis;
+        if (words.size() == 2 && words[0] == "table")
+            return toMarkdown(makeTable(analysis.table(words[1]), findings_));
+        if (words.size() == 2 && words[0] == "figure") {
+            const PlotSpec& spec = analysis.plot(words[1]);
+            const std::string stem = page_.stem().string() + "_" + spec.name;
+            drawings_.push_back({&spec, page_.parent_path() / stem});
+            return fmt::format("![{}]({}.svg)\n", spec.title.empty() ? spec.name : spec.title, stem);
+        }
+        if (words == std::vector<std::string>{"stamp"}) return stampLine(provenance_, findings_) + "\n";
+        if (words == std::vector<std::string>{"checks"} && checks_) return toMarkdown(checkTable(*checks_));
+        throw ConfigError(
+            checks_ || words != std::vector<std::string>{"checks"}
+                ? fmt::format("'{}' is no mark, expected table NAME, figure NAME, checks or stamp",
+                              fmt::join(words, " "))
+                : "the checks of the study were not made, expected no mark 'checks'");
+    }
+
+    void draw() const {
+        for (const auto& [spec, stem] : drawings_)
+            report::writeFigure(makeFigure(*spec, findings_), stem, {false, true, false});
+    }
+
+  private:
+    fs::path page_;
+    const Findings& findings_;
+    const Provenance& provenance_;
+    const CheckReport* checks_;
+    std::vector<std::pair<const PlotSpec*, fs::path>> drawings_;
+};
+
+}  // namespace
+
+Provenance provenanceHere(const std::string& command) {
+    return {fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))), processorName(),
+            std::thread::hardware_concurrency(), command};
+}
+
+std::string stampLine(const Provenance& p, const Findings& findings) {
+    const auto& rows = findings.rows;
+    std::set<std::string> hosts;
+    for (const Row& row : rows)
+        if (!row.cost.host.empty()) hosts.insert(row.cost.host);
+    const auto failed =
+        std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.status == "failed"; });
+    std::string line = fmt::format("Measured on {}, {}, {} {}, slamot {}, {} runs", p.date, p.processor,
+                                   p.cores, p.cores == 1 ? "core" : "cores", version, rows.size());
+    if (failed > 0) line += fmt::format(" ({} failed)", failed);
+    if (hosts.size() > 1) line += fmt::format(" on {} machines", hosts.size());
+    return line + fmt::format(": `{}`", p.command);
+}
+
+void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
+              const CheckReport* checks) {
+    const std::vector<std::string> lines = linesOf(page);
+    Filler filler(page, findings, provenance, checks);
+    std::string text;
+    bool any = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        text += lines[i] + '\n';
+        std::vector<std::string> words = wordsOfMark(lines[i]);
+        if (words.empty() || words.front() != findings.study.name) continue;
+        any = true;
+        const auto fail = [&](const std::string& problem) {
+            throw ConfigError(fmt::format("{}:{}: {}", page, i + 1, problem));
+        };
+        std::size_t end = i + 1;
+        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && wordsOfMark(lines[end]).empty())
+            ++end;
+        if (end == lines.size() || !wordsOfMark(lines[end]).empty())
+            fail(fmt::format("'{}' has no end, expected <!-- end --> before the next mark", lines[i]));
+        try {
+            text += filler.content({words.begin() + 1, words.end()});
+        } catch (const ConfigError& error) {
+            fail(error.what());
+        }
+        i = end - 1;
+    }
+    if (!any)
+        throw ConfigError(
+            fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
+                        findings.study.name, findings.study.name));
+    filler.draw();
+    run::PartFile file(page);
+    file.write(text);
+    file.close();
+}
+
+}  // namespace slamot::study

@@ -1,0 +1,157 @@
+// One world and its runs, in one thread.
+#include <fmt/format.h>
+#include <mrpt/core/exceptions.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "Meters.h"
+#include "World.h"
+#include "slamot/run/OutputFolder.h"
+#include "slamot/run/Run.h"
+#include "slamot/study/Runner.h"
+#include "slamot/study/Series.h"
+
+namespace slamot::study {
+namespace {
+
+/// MRPT's exceptions come with a call stack.
+std::string sentenceOf(const std::exception& error) {
+    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
+    std::string text = with_stack ? with_stack->originalWhat : error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// The part of a list that stands for its place: what it is about, where it says so.
+std::string placeOf(const nlohmann::json& item, std::size_t index) {
+    if (!item.is_object() || !item.contains("sensor")) return std::to_string(index);
+    return item["sensor"].get<std::string>() + "." + item["kind"].get<std::string>();
+}
+
+void flatten(const nlohmann::json& json, const std::string& name, std::map<std::string, double>& metrics) {
+    const std::string prefix = name.empty() ? "" : name + ".";
+    if (json.is_object())
+        for (const auto& [key, value] : json.items()) flatten(value, prefix + key, metrics);
+    else if (json.is_array())
+        for (std::size_t i = 0; i < json.size(); ++i) flatten(json[i], prefix + placeOf(json[i], i), metrics);
+    else if (json.is_number() && std::isfinite(json.get<double>()))
+        metrics[name] = json.get<double>();
+}
+
+Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
+    Row row;
+    row.key = run.key;
+    row.source = plan.sourceOf(world).name;
+    row.variant = plan.variantOf(run).name;
+    if (plan.kinds[world.kind].scenario) row.scenario_point = plan.study.scenario_grid[world.scenario_point];
+    row.config_point = plan.study.config_grid[run.config_point];
+    row.replicate = world.replicate;
+    row.world_seed = world.world_seed;
+    row.estimator_seed = run.estimator_seed;
+    row.build = plan.configs[run.config].build;
+    row.cost.host = hostName();
+    return row;
+}
+
+void fill(Row& row, const run::RunResult& result, const std::vector<std::string>& series,
+          const LandmarkCounter& counter, const Truth* truth) {
+    row.status = toText(result.status);
+    row.reason = result.end_message;
+    row.estimate_hash = result.estimate_hash;
+    flatten(result.summary["metrics"], "", row.metrics);
+    flatten(result.summary["counts"], "counts", row.metrics);
+    row.series = seriesOf(series, result.record, counter.counts(), truth);
+    const nlohmann::json& time = result.summary["time"];
+    const auto number = [](const nlohmann::json& json) {
+        return json.is_number() ? json.get<double>() : Cost::none;
+    };
+    row.cost.wall_s = number(time["wall_s"]);
+    row.cost.step_ms_mean = number(time["step_ms"]["mean"]);
+    const double cpu_s = number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
+    row.cost.step_cpu_ms_mean = 1e3 * cpu_s / std::max(1.0, number(time["steps"]));
+    row.cost.step_ms_p50 = number(time["step_ms"]["p50"]);
+    row.cost.step_ms_p99 = number(time["step_ms"]["p99"]);
+    row.cost.step_ms_max = number(time["step_ms"]["max"]);
+}
+
+/// Runs the config through the world; an exception is for the caller.
+run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const World& world,
+                       const std::string& folder, const PluginRegistry& registry,
+                       const UnitOptions& options) {
+    Config config = plan.configs[run.config].config;
+    config.set("run", "seed", std::to_string(run.estimator_seed));
+    MemoryMeter memory;
+    if (options.measure_memory) memory.start();
+    const run::AssembledRun assembled = run::assembleRun(config, registry);
+    const auto log = world.log(assembled.config.log);
+    LandmarkCounter counter;
+    run::RunInput input;
+    input.source = log.get();
+    input.log_name = world.name();
+    input.truth = world.truth();
+    input.truth_name = world.truth() ? world.name() : "";
+    input.stop = options.stop;
+    input.sinks.push_back(&counter);
+    std::optional<run::OutputFolder> output;
+    if (!folder.empty()) {
+        output.emplace(folder, assembled, "");
+        for (run::Sink* sink : output->sinks()) input.sinks.push_back(sink);
+    }
+    const double cpu_begin = threadCpuSeconds();
+    const run::RunResult result = run::runSource(assembled, input);
+    row.cost.cpu_s = threadCpuSeconds() - cpu_begin;
+    if (options.measure_memory) row.cost.memory_mb = memory.most();
+    if (output) output->writeSummary(result.summary);
+    fill(row, result, plan.study.parameters.series, counter, world.truth());
+    return result.status;
+}
+
+}  // namespace
+
+std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry,
+                         const UnitOptions& options) {
+    const auto stopped = [&] { return options.stop && options.stop->load(); };
+    const WorldPlan& planned = plan.worlds[unit.world];
+    std::vector<Row> rows;
+    for (const std::size_t i : unit.runs) rows.push_back(rowOf(plan, planned, planned.runs[i]));
+
+    std::optional<World> world;
+    try {
+        world.emplace(plan, planned, stopped);
+    } catch (const World::Stopped&) {
+        return {};
+    } catch (const std::exception& error) {
+        for (Row& row : rows) row.status = toText(run::RunStatus::failed), row.reason = sentenceOf(error);
+        return rows;
+    }
+    const std::string folder =
+        options.keep_folder.empty() ? "" : options.keep_folder + "/" + plan.nameOf(planned);
+    if (!folder.empty() && world->truth()) writeTruth(*world->truth(), folder + "/truth");
+
+    for (std::size_t i = 0; i < unit.runs.size(); ++i) {
+        const RunPlan& run = planned.runs[unit.runs[i]];
+        const auto begin = std::chrono::steady_clock::now();
+        Row& row = rows[i];
+        row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
+        try {
+            const run::RunStatus status =
+                runInto(row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run),
+                        registry, options);
+            if (status == run::RunStatus::stopped) {
+                rows.resize(i);
+                return rows;
+            }
+        } catch (const std::exception& error) {
+            row.status = toText(run::RunStatus::failed);
+            row.reason = sentenceOf(error);
+            row.cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        }
+    }
+    return rows;
+}
+
+}  // namespace slamot::study

@@ -1,0 +1,76 @@
+#include "slamot/study/Session.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+namespace slamot::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t reasons_shown = 3;
+
+Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
+    PlanRequest plan;
+    plan.short_form = request.short_form;
+    plan.replicates = request.replicates;
+    plan.work_folder = workFolderOf(request.store_file);
+    return layOut(loadStudy(request.study_file), plan, registry);
+}
+
+}  // namespace
+
+std::string workFolderOf(const std::string& store_file) {
+    return (fs::path(store_file).parent_path() / "imported_logs").string();
+}
+
+Session::Session(const SessionRequest& request, const PluginRegistry& registry)
+    : request_(request), plan_(planOf(request, registry)), store_(request.store_file, plan_.study) {
+    store_.done(plan_, request.any_build);
+    if (!request.retry_failed) return;
+    std::set<std::string> failed;
+    for (const Row& row : rows())
+        if (row.status == "failed") failed.insert(row.key);
+    store_.erase(failed);
+}
+
+std::vector<Unit> Session::missing(const Shard& shard) const {
+    return unitsOf(plan_, store_.done(plan_, true), shard);
+}
+
+std::string Session::stateInWords() const {
+    std::map<std::string, std::size_t> reasons;
+    std::size_t there = 0, failed = 0;
+    for (const Row& row : rows()) {
+        ++there;
+        if (row.status != "failed") continue;
+        ++failed;
+        ++reasons[row.variant + " on " + row.source + ": " + row.reason];
+    }
+    std::string text = fmt::format("{} of {} runs are there", there, plan_.runCount());
+    if (failed > 0) text += fmt::format(", of which {} failed", failed);
+    std::size_t shown = 0;
+    for (const auto& [reason, count] : reasons) {
+        if (shown++ == reasons_shown) {
+            text += fmt::format("\n  and {} further reasons", reasons.size() - reasons_shown);
+            break;
+        }
+        text += fmt::format("\n  {} x {}", count, reason);
+    }
+    return text;
+}
+
+std::string timesInWords(const StudyProgress& progress, double wall_s, double runs_s, int threads) {
+    if (progress.done == 0) return fmt::format("nothing was run, in {:.1f} s", wall_s);
+    const double engine = wall_s * threads - runs_s;
+    return fmt::format(
+        "{} runs, {} failed, in {:.1f} s; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and "
+        "waiting {:.1f} % "
+        "of the runs",
+        progress.done, progress.failed, wall_s, runs_s, runs_s / wall_s, threads, threads == 1 ? "" : "s",
+        100 * engine / runs_s);
+}
+
+}  // namespace slamot::study

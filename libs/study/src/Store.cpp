@@ -1,0 +1,218 @@
+#include "slamot/study/Store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "RowJson.h"
+#include "Sqlite.h"
+#include "slamot/rawlog/LogError.h"
+
+namespace slamot::study {
+namespace {
+
+constexpr const char* format = "slamot study 1";
+// Text where a person or another program may look (SQLite reads JSON); series are CBOR, since they are long.
+constexpr const char* schema =
+    "CREATE TABLE IF NOT EXISTS study (name TEXT, format TEXT);"
+    "CREATE TABLE IF NOT EXISTS rows (key TEXT PRIMARY KEY, source TEXT, scenario_point TEXT, variant TEXT,"
+    " config_point TEXT, replicate INTEGER, world_seed TEXT, estimator_seed TEXT, status TEXT, reason TEXT,"
+    " estimate_hash TEXT, metrics TEXT, series BLOB, cost TEXT, build TEXT) WITHOUT ROWID;";
+constexpr const char* columns =
+    "key, source, scenario_point, variant, config_point, replicate, world_seed, estimator_seed, status, "
+    "reason,"
+    " estimate_hash, metrics, series, cost, build";
+
+std::string cbor(const nlohmann::json& json) {
+    std::string bytes;
+    nlohmann::json::to_cbor(json, bytes);
+    return bytes;
+}
+
+Row rowOf(const Statement& s) {
+    using nlohmann::json;
+    Row row;
+    row.key = s.text(0);
+    row.source = s.text(1);
+    row.scenario_point = pointFrom(json::parse(s.text(2)));
+    row.variant = s.text(3);
+    row.config_point = pointFrom(json::parse(s.text(4)));
+    row.replicate = static_cast<int>(s.integer(5));
+    row.world_seed = std::stoull(s.text(6));
+    row.estimator_seed = std::stoull(s.text(7));
+    row.status = s.text(8);
+    row.reason = s.text(9);
+    row.estimate_hash = s.text(10);
+    row.metrics = metricsFrom(json::parse(s.text(11)));
+    row.series = seriesFrom(json::from_cbor(s.text(12)));
+    row.cost = costFrom(json::parse(s.text(13)));
+    row.build = s.text(14);
+    return row;
+}
+
+/// Throws when the database is of something else.
+void requireStudy(Database& database, const std::string& name) {
+    const std::string& file = database.file();
+    Statement tables(database, "SELECT count(*) FROM sqlite_master WHERE name IN ('study', 'rows')");
+    tables.step();
+    if (tables.integer(0) != 2)
+        throw LogError(
+            fmt::format("{}: is a database of something else, expected a file of rows of a study", file));
+    Statement study(database, "SELECT name, format FROM study");
+    const bool there = study.step();
+    const std::string found_name = there ? study.text(0) : "", found_format = there ? study.text(1) : "";
+    if (found_format != format)
+        throw LogError(fmt::format("{}: its rows are in another form ('{}'), expected '{}'", file,
+                                   found_format, format));
+    if (found_name != name)
+        throw LogError(
+            fmt::format("{}: has the rows of study '{}', expected those of '{}'", file, found_name, name));
+}
+
+}  // namespace
+
+struct Store::Impl {
+    Impl(const std::string& file, const StudyFile& study) : database(file), name(study.name) {
+        open();
+        insert = std::make_unique<Statement>(
+            database,
+            fmt::format("INSERT OR IGNORE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
+    }
+
+    /// Makes the tables in an empty file, and never in a database of something else.
+    void open() {
+        Statement any(database, "SELECT count(*) FROM sqlite_master");
+        any.step();
+        if (any.integer(0) == 0) {
+            any.reset();
+            // Readers and a writer at the same time, and a row a commit without waiting for the disk: a kill
+            // of the program loses nothing, only a power failure may lose the last rows.
+            database.execute("PRAGMA journal_mode = WAL");
+            database.execute(fmt::format("BEGIN IMMEDIATE; {}", schema));
+            Statement(database, "INSERT INTO study SELECT ?, ? WHERE NOT EXISTS (SELECT * FROM study)")
+                .bind(1, name)
+                .bind(2, std::string(format))
+                .step();
+            database.execute("COMMIT");
+        }
+        requireStudy(database, name);
+        database.execute("PRAGMA synchronous = NORMAL");
+    }
+
+    Database database;
+    std::string name;
+    std::unique_ptr<Statement> insert;
+};
+
+Store::Store(const std::string& file, const StudyFile& study) : impl_(std::make_unique<Impl>(file, study)) {}
+Store::~Store() = default;
+
+std::set<std::string> Store::done(const Plan& plan, bool any_build) const {
+    std::map<std::string, std::string> builds;
+    Statement all(impl_->database, "SELECT key, build FROM rows");
+    while (all.step()) builds[all.text(0)] = all.text(1);
+    std::set<std::string> keys;
+    std::size_t others = 0;
+    for (const WorldPlan& world : plan.worlds)
+        for (const RunPlan& run : world.runs) {
+            const auto found = builds.find(run.key);
+            if (found == builds.end()) continue;
+            keys.insert(run.key);
+            others += found->second != plan.configs[run.config].build;
+        }
+    if (others > 0 && !any_build)
+        throw LogError(fmt::format(
+            "{}: {} of its {} rows of this study were made by another build of the program or its "
+            "plugins, expected a new file, or --any-build to keep them",
+            impl_->database.file(), others, keys.size()));
+    return keys;
+}
+
+void Store::add(const Row& row) {
+    Statement& s = *impl_->insert;
+    s.bind(1, row.key)
+        .bind(2, row.source)
+        .bind(3, dumped(pointJson(row.scenario_point)))
+        .bind(4, row.variant);
+    s.bind(5, dumped(pointJson(row.config_point))).bind(6, static_cast<std::int64_t>(row.replicate));
+    s.bind(7, std::to_string(row.world_seed)).bind(8, std::to_string(row.estimator_seed));
+    s.bind(9, row.status)
+        .bind(10, row.reason)
+        .bind(11, row.estimate_hash)
+        .bind(12, dumped(metricsJson(row.metrics)));
+    s.bindBlob(13, cbor(seriesJson(row.series))).bind(14, dumped(costJson(row.cost))).bind(15, row.build);
+    s.step();
+    s.reset();
+}
+
+void Store::erase(const std::set<std::string>& keys) {
+    Statement erase(impl_->database, "DELETE FROM rows WHERE key = ?");
+    for (const std::string& key : keys) {
+        erase.bind(1, key).step();
+        erase.reset();
+    }
+}
+
+std::vector<Row> Store::rows(const Plan& plan) const {
+    struct Wanted {
+        std::size_t source, scenario_point, variant, config_point;
+        int replicate;
+        const std::string* key;
+    };
+    std::vector<Wanted> wanted;
+    for (const WorldPlan& world : plan.worlds)
+        for (const RunPlan& run : world.runs)
+            wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point,
+                              world.replicate, &run.key});
+    std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
+        return std::tie(a.source, a.scenario_point, a.variant, a.config_point, a.replicate) <
+               std::tie(b.source, b.scenario_point, b.variant, b.config_point, b.replicate);
+    });
+    std::vector<Row> found;
+    Statement one(impl_->database, fmt::format("SELECT {} FROM rows WHERE key = ?", columns));
+    for (const Wanted& run : wanted) {
+        one.bind(1, *run.key);
+        if (one.step()) found.push_back(rowOf(one));
+        one.reset();
+    }
+    return found;
+}
+
+std::size_t Store::count() const {
+    Statement count(impl_->database, "SELECT count(*) FROM rows");
+    count.step();
+    return static_cast<std::size_t>(count.integer(0));
+}
+
+void Store::merge(const std::vector<std::string>& files) {
+    Database& database = impl_->database;
+    for (const std::string& file : files) {
+        if (!std::filesystem::is_regular_file(file))
+            throw LogError(file + ": is not there, expected a file of rows to merge");
+        {
+            Database other(file);
+            requireStudy(other, impl_->name);
+        }
+        Statement(database, "ATTACH ? AS other").bind(1, file).step();
+        Statement conflict(
+            database,
+            "SELECT a.key, a.source, a.variant, a.replicate FROM main.rows a JOIN other.rows b USING (key)"
+            " WHERE NOT (a.status = b.status AND a.reason = b.reason AND a.estimate_hash = b.estimate_hash"
+            " AND a.metrics = b.metrics AND a.series = b.series)");
+        if (conflict.step())
+            throw LogError(
+                fmt::format("{}: its row {} ({} on {}, replicate {}) differs from that in {}, expected equal "
+                            "rows of equal keys",
+                            file, conflict.text(0).substr(0, 12), conflict.text(2), conflict.text(1),
+                            conflict.text(3), database.file()));
+        conflict.reset();
+        database.execute(
+            fmt::format("INSERT OR IGNORE INTO main.rows ({0}) SELECT {0} FROM other.rows", columns));
+        database.execute("DETACH other");
+    }
+}
+
+}  // namespace slamot::study

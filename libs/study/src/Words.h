@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace slamot::study {
+
+/// The parts between separators, without blanks around them; an empty text has none.
+std::vector<std::string> split(const std::string& text, char separator);
+
+/// Letters, digits, '_' and '-': what may be a part of keys and of folder names.
+bool isPlainName(const std::string& name);
+
+}  // namespace slamot::study
