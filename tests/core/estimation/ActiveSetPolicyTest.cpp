@@ -1,0 +1,105 @@
+#include "slamot/core/estimation/ActiveSetPolicy.h"
+
+#include <gtest/gtest.h>
+
+namespace slamot {
+namespace {
+
+RangeBearingSet oneSensor(double range, double field_of_view = 2 * pi, const Pose2& pose = {}) {
+    RangeBearingSet set;
+    RangeBearingSensor sensor;
+    sensor.max_range = range;
+    sensor.field_of_view = field_of_view;
+    sensor.pose = pose;
+    set.sensors.push_back(sensor);
+    return set;
+}
+
+const std::vector<BlockId> nothing;
+
+TEST(ActiveSetPolicyTest, MarginsCountInRanges) {
+    ActiveSetParameters parameters;
+    parameters.activate_margin = 0.5;
+    parameters.keep_margin = 0.75;
+    ActiveSetPolicy policy(parameters);
+    const RangeBearingSet set = oneSensor(20, 2 * pi, {1, 0, 0});  // at (11, 5)
+    policy.look({{10, 5, 0}, set, nothing});
+    EXPECT_TRUE(policy.toActivate({11 + 29.9, 5}));
+    EXPECT_FALSE(policy.toActivate({11 + 30.1, 5}));
+    EXPECT_TRUE(policy.toKeep({11, 5 - 34.9}));
+    EXPECT_FALSE(policy.toKeep({11, 5 - 35.1}));
+}
+
+TEST(ActiveSetPolicyTest, FieldsOfViewHaveTheirMargin) {
+    ActiveSetParameters parameters;
+    parameters.view_margin = 0.5;
+    parameters.activate_margin = 0.2;
+    ActiveSetPolicy policy(parameters);
+    const RangeBearingSet set = oneSensor(10, 1.0, {0, 0, pi / 2});  // looks to the left: north
+    policy.look({{0, 0, 0}, set, nothing});
+    const auto at = [](double distance, double aside) {
+        return Vector2(distance * std::cos(pi / 2 + aside), distance * std::sin(pi / 2 + aside));
+    };
+    EXPECT_TRUE(policy.toActivate(at(9, 0.99)));
+    EXPECT_FALSE(policy.toActivate(at(9, 1.01)));
+    EXPECT_TRUE(policy.toKeep(at(9, -1.49)));
+    EXPECT_FALSE(policy.toKeep(at(9, -1.51)));
+    EXPECT_TRUE(policy.toActivate(at(1.9, pi))) << "beside the sensor any side will do";
+    EXPECT_FALSE(policy.toActivate(at(2.1, pi)));
+}
+
+TEST(ActiveSetPolicyTest, DueWhenAMarginIsUsedUp) {
+    ActiveSetParameters parameters;
+    parameters.activate_margin = 0.5;
+    parameters.view_margin = 0.5;
+    ActiveSetPolicy policy(parameters);
+    const RangeBearingSet set = oneSensor(20, 1.0);
+    policy.look({{0, 0, 0}, set, nothing});
+    EXPECT_TRUE(policy.due());
+    policy.refreshed();
+    EXPECT_FALSE(policy.due());
+    policy.look({{9.9, 0, 0.49}, set, nothing});
+    EXPECT_FALSE(policy.due());
+    policy.look({{10.1, 0, 0}, set, nothing});
+    EXPECT_TRUE(policy.due());
+    policy.refreshed();
+    policy.look({{10.1, 0, -0.51}, set, nothing});
+    EXPECT_TRUE(policy.due());
+}
+
+TEST(ActiveSetPolicyTest, WithoutALimitTheLongestRangeMetCounts) {
+    ActiveSetPolicy policy({});
+    RangeBearingSet set = oneSensor(0);
+    set.detections.resize(2);
+    set.detections[0].range = 8;
+    set.detections[1].range = 5;
+    policy.look({{}, set, nothing});
+    EXPECT_EQ(policy.range(), 8);
+    policy.refreshed();
+    set.detections[1].range = 12;
+    policy.look({{}, set, nothing});
+    EXPECT_EQ(policy.range(), 12);
+    EXPECT_TRUE(policy.due()) << "there is more within reach than was thought";
+    // A limit given by hand stands above what is met.
+    ActiveSetParameters parameters;
+    parameters.range = 3;
+    ActiveSetPolicy fixed(parameters);
+    fixed.look({{}, set, nothing});
+    EXPECT_EQ(fixed.range(), 3);
+}
+
+TEST(ActiveSetPolicyTest, CommitsWhenThereIsMuchToGain) {
+    ActiveSetParameters parameters;
+    parameters.base_growth = 3;
+    parameters.retirable_part = 0.25;
+    parameters.keep_at_least = 50;
+    const ActiveSetPolicy policy(parameters);
+    EXPECT_TRUE(policy.worthCommit(100, 40, 0, 301));
+    EXPECT_FALSE(policy.worthCommit(100, 40, 0, 300));
+    EXPECT_TRUE(policy.worthCommit(200, 80, 21, 0));
+    EXPECT_FALSE(policy.worthCommit(200, 80, 20, 0));
+    EXPECT_FALSE(policy.worthCommit(200, 50, 49, 0)) << "a small map stays whole";
+}
+
+}  // namespace
+}  // namespace slamot
