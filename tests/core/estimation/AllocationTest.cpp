@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 #include <vector>
 
 #include "slamot/core/estimation/JointFilter.h"
@@ -53,7 +54,7 @@ int allocationsOf(const Action& action) {
     return allocations;
 }
 
-class Allocations : public ::testing::TestWithParam<Consistency> {
+class Allocations : public ::testing::TestWithParam<std::tuple<Consistency, JointEngine::Kind>> {
   protected:
     void SetUp() override {
         if (!SLAMOT_COUNTS_ALLOCATIONS)
@@ -85,7 +86,8 @@ DetectionSet lookAround(Stamp stamp, int stride) {
 
 TEST_P(Allocations, aStepTakesNothingButItsReport) {
     JointFilterParameters parameters;
-    parameters.consistency = GetParam();
+    parameters.consistency = std::get<0>(GetParam());
+    parameters.engine.kind = std::get<1>(GetParam());
     RobotMotionParameters motion;
     motion.model = RobotMotionModel::increment;
     JointFilter filter(parameters, motion);
@@ -107,7 +109,10 @@ TEST_P(Allocations, aStepTakesNothingButItsReport) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Allocations, ::testing::Values(Consistency::classic, Consistency::invariant));
+INSTANTIATE_TEST_SUITE_P(All, Allocations,
+                         ::testing::Combine(::testing::Values(Consistency::classic, Consistency::invariant),
+                                            ::testing::Values(JointEngine::Kind::dense,
+                                                              JointEngine::Kind::compressed)));
 
 }  // namespace
 }  // namespace slamot

@@ -30,7 +30,7 @@ class Twins {
           robot_(randomVector(random, 3)),
           covariance_(randomCovariance(random, 3)),
           dense(robot_, covariance_, consistency, modes),
-          compressed(robot_, covariance_, consistency, modes),
+          compressed(robot_, covariance_, consistency, modes, nothingOnItsOwn()),
           weights(Eigen::VectorXd::Constant(modes, 1.0 / modes)) {
         active.insert(robot_block);
         // Modes differ from the start.
@@ -118,6 +118,16 @@ class Twins {
         active.insert(landmarks.begin(), landmarks.end());
     }
 
+    /// The compressed engine groups its map by distance to the robot, and brings in what is near.
+    void attend() {
+        RangeBearingSet seen;
+        seen.sensors.resize(1);
+        const std::vector<BlockId> measured;
+        compressed.attend({Pose2::fromVector(compressed.mode(0).mean(robot_block)), seen, measured}, weights);
+        for (const auto& [id, name] : names)
+            if (compressed.active(name) && active.insert(id).second) dense.activate({id});
+    }
+
     void remove(BlockId id) {
         dense.remove(id);
         compressed.remove(names.at(id));
@@ -155,6 +165,14 @@ class Twins {
     RandomStream random;
 
   private:
+    static ActiveSetParameters nothingOnItsOwn() {
+        ActiveSetParameters parameters;
+        parameters.range = 0.1;  // positions are about 1 apart: most tiles are far
+        parameters.base_growth = 1e9;
+        parameters.keep_at_least = 1000;
+        return parameters;
+    }
+
     testing::AssertionResult agree(const JointView& a, const JointView& b, double tolerance) const {
         for (const auto& [id, name] : names)
             if (auto same = near(b.mean(name), a.mean(id), tolerance); !same)
@@ -220,10 +238,13 @@ TEST_P(CompressedJointBankTest, ExactBetweenCommits) {
 }
 
 TEST_P(CompressedJointBankTest, RandomSequences) {
+    int most_far = 0;
+    std::int64_t regroupings = 0;
     for (std::uint32_t sequence = 1; sequence <= 6; ++sequence) {
         Twins pair = twins(sequence);
         for (int i = 0; i < 12; ++i) pair.augment(BlockKind::landmark);
         for (int step = 0; step < 80; ++step) {
+            pair.attend();
             const double choice = pair.random.uniform();
             if (choice < 0.25) {
                 pair.propagate();
@@ -247,8 +268,13 @@ TEST_P(CompressedJointBankTest, RandomSequences) {
                 ASSERT_TRUE(isPositiveSemidefinite(
                     pair.compressed.mode(i).jointCovariance(pair.inCompressed(pair.all())), 1e-9))
                     << "sequence " << sequence << " step " << step;
+            most_far = std::max(most_far, pair.compressed.map().census().columns -
+                                              pair.compressed.map().census().near_columns);
+            regroupings = std::max(regroupings, pair.compressed.map().census().regroupings);
         }
     }
+    EXPECT_GT(most_far, 10);
+    EXPECT_GT(regroupings, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CompressedJointBankTest,

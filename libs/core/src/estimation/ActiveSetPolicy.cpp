@@ -21,9 +21,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
         .real("retirable_part", p.retirable_part, "-", Interval::probability(),
               "Commit when this part of the active landmarks is out of reach.")
         .integer("keep_at_least", p.keep_at_least, Interval::nonNegative(),
-                 "Active landmarks that are kept in any case: a small map is never divided.")
-        .real("work_per_step", p.work_per_step, "-", Interval::positive(),
-              "Multiplications a step may spend on what a commit has left for later.");
+                 "Active landmarks that are kept in any case: a small map is never divided.");
     return table;
 }
 
@@ -82,7 +80,7 @@ bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view
 bool ActiveSetPolicy::worthCommit(int active_dimension, int active_landmarks, int retirable,
                                   int base_dimension) const {
     if (base_dimension > parameters_.base_growth * active_dimension) return true;
-    return retirable > 0 && active_landmarks - retirable >= 0 && active_landmarks > parameters_.keep_at_least &&
+    return retirable > 0 && active_landmarks > parameters_.keep_at_least &&
            retirable > parameters_.retirable_part * active_landmarks;
 }
 

@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/CompressedJointBank.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "slamot/core/estimation/CommonConditional.h"
@@ -140,7 +139,6 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
     commit.Phi_landmarks = P(away, beta);
     commit.kept_covariance = P(kept, away);
     commit.own_covariance = P(away, away);
-    map_.setTileReach(policy_.range() > 0 ? policy_.range() : std::numeric_limits<double>::infinity());
     map_.commit(commit);
 
     const bool several = modes_.size() > 1;
@@ -183,7 +181,7 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
 }
 
 void CompressedJointBank::attend(const Attention& attention, const ModeWeights& weights) {
-    map_.work(policy_.parameters().work_per_step);
+    map_.step();
     policy_.look(attention);
     Eigen::Index reference = 0;
     weights.maxCoeff(&reference);
@@ -202,13 +200,15 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
                             map_.baseDimension()))
         commit(leaving_, weights);
 
+    if (policy_.range() > 0) map_.follow(mode.gaussian.mean().head<2>(), policy_.range());
+
     coming_.clear();
     for (const BlockId id : attention.measured)
         if (map_.contains(id)) coming_.push_back(id);
     if (policy_.due()) {
         if (map_.size() > 0) {
             const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
-            map_.forPositions(eta, [&](BlockId id, const Vector2& position) {
+            map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
                 if (policy_.toActivate(position) && std::find(coming_.begin(), coming_.end(), id) == coming_.end())
                     coming_.push_back(id);
             });

@@ -32,6 +32,12 @@ void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
     gemm(CblasNoTrans, A, B, C);
 }
 
+Eigen::MatrixXd product(const MatrixIn& A, const MatrixIn& B) {
+    Eigen::MatrixXd C(A.rows(), B.cols());
+    multiply(A, B, C);
+    return C;
+}
+
 void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
     gemm(CblasTrans, A, B, C);
 }

@@ -1,15 +1,24 @@
 #include "slamot/core/estimation/PassiveMap.h"
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "PassiveMapTiles.h"
 #include "slamot/core/estimation/DenseAlgebra.h"
 #include "slamot/core/estimation/TurningBasis.h"
 
 namespace slamot {
+namespace {
 
-using namespace passive_map;
+/// The two coordinates of each landmark.
+std::vector<int> coordinatesOf(const std::vector<int>& landmarks) {
+    std::vector<int> out;
+    for (const int i : landmarks) {
+        out.push_back(2 * i);
+        out.push_back(2 * i + 1);
+    }
+    return out;
+}
+
+}  // namespace
 
 bool PassiveMap::contains(BlockId landmark) const {
     const auto found = std::lower_bound(addresses_.begin(), addresses_.end(), landmark,
@@ -30,7 +39,6 @@ void PassiveMap::index() {
             addresses_.push_back({tile(t).landmarks[i], t, static_cast<int>(i)});
     std::sort(addresses_.begin(), addresses_.end(),
               [](const Address& a, const Address& b) { return a.landmark < b.landmark; });
-    size_ = static_cast<int>(addresses_.size());
 }
 
 std::vector<BlockId> PassiveMap::landmarks() const {
@@ -40,33 +48,34 @@ std::vector<BlockId> PassiveMap::landmarks() const {
 }
 
 Vector2 PassiveMap::mean(BlockId landmark) const {
-    const Address& at = find(landmark);
-    return tile(at.tile).mean.segment<2>(2 * at.index);
+    const auto& [id, t, i] = find(landmark);
+    Vector2 out = tile(t).mean.segment<2>(2 * i);
+    if (tile(t).far) out += group_.part(t).V.middleCols<2>(2 * i).transpose() * group_.shift;
+    return out;
 }
 
 Eigen::MatrixXd PassiveMap::base(BlockId landmark) const {
-    const Address& at = find(landmark);
-    const Tile& t = tile(at.tile);
-    if (t.open()) return t.X.middleCols<2>(2 * at.index);
-    return t.X * t.Y.middleCols<2>(2 * at.index);
+    const auto& [id, t, i] = find(landmark);
+    if (tile(t).far) return group_.W * group_.part(t).V.middleCols<2>(2 * i);
+    return tile(t).X.middleCols<2>(2 * i);
 }
 
 Matrix2 PassiveMap::covariance(BlockId a, BlockId b) const {
-    const Address &at_a = find(a), &at_b = find(b);
+    const Address at_a = find(a), at_b = find(b);
     if (at_a.tile > at_b.tile) return covariance(b, a).transpose();
-    const Tile &s = tile(at_a.tile), &t = tile(at_b.tile);
-    const Pair& p = pair(at_a.tile, at_b.tile);
-    const Eigen::MatrixXd y_a = columnsOf(s.Y, s.rank(), at_a.index), y_b = columnsOf(t.Y, t.rank(), at_b.index);
-    Matrix2 out = y_a.transpose() * p.Z * y_b;
-    if (p.D.size() > 0) out += p.D.block<2, 2>(2 * at_a.index, 2 * at_b.index);
-    for (const Waiting& waiting : waiting_) {
-        if (waiting.number < p.done) continue;
-        const auto [first_a, count_a] = waiting.span[static_cast<std::size_t>(at_a.tile)];
-        const auto [first_b, count_b] = waiting.span[static_cast<std::size_t>(at_b.tile)];
-        const Eigen::MatrixXd B_a = waiting.X.middleCols(first_a, count_a) * y_a.topRows(count_a);
-        const Eigen::MatrixXd B_b = waiting.X.middleCols(first_b, count_b) * y_b.topRows(count_b);
-        out += B_a.transpose() * waiting.Psi * B_b;
-    }
+    const int s = at_a.tile, t = at_b.tile, row = 2 * at_a.index, column = 2 * at_b.index;
+    const Pair& p = pair(s, t);
+    Matrix2 out = Matrix2::Zero();
+    if (row < p.Z.rows() && column < p.Z.cols()) out = p.Z.block<2, 2>(row, column);
+    const auto addWaiting = [&](const FarGroup& group) {
+        if (group.number < p.done || row >= group.width(s) || column >= group.width(t)) return;
+        if (group.far(t))
+            out += group.left(s, row, 2) * group.part(t).V.middleCols<2>(column);
+        else if (group.far(s))
+            out += (group.left(t, column, 2) * group.part(s).V.middleCols<2>(row)).transpose();
+    };
+    for (const FarGroup& old : old_groups_) addWaiting(old);
+    addWaiting(group_);
     return out;
 }
 
@@ -81,32 +90,46 @@ Eigen::MatrixXd PassiveMap::withTurned(const Eigen::MatrixXd& rows) const {
     return out;
 }
 
+void PassiveMap::addBlock(int s, int row, int t, int column, const Eigen::Ref<const Eigen::MatrixXd>& P) {
+    if (s > t) return addBlock(t, column, s, row, P.transpose());
+    Eigen::MatrixXd& Z = pair(s, t).Z;
+    const auto rows = std::max(Z.rows(), row + P.rows()), cols = std::max(Z.cols(), column + P.cols());
+    if (rows > Z.rows() || cols > Z.cols()) {
+        Eigen::MatrixXd larger = Eigen::MatrixXd::Zero(rows, cols);
+        larger.topLeftCorner(Z.rows(), Z.cols()) = Z;
+        Z.swap(larger);
+    }
+    Z.block(row, column, P.rows(), P.cols()) += P;
+}
+
 PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
-    std::vector<Address> addresses;
-    for (const BlockId id : landmarks) addresses.push_back(find(id));
-    for (const Address& address : addresses) open(address.tile);
+    std::vector<char> far(tiles_.size());
+    bool come_near = false;
+    for (int t = 0; t < tileCount(); ++t) far[static_cast<std::size_t>(t)] = tile(t).far;
+    for (const BlockId id : landmarks) {
+        const int t = find(id).tile;
+        come_near |= tile(t).far;
+        far[static_cast<std::size_t>(t)] = 0;
+    }
+    if (come_near) regroup(far);
 
     const int columns = 2 * static_cast<int>(landmarks.size());
     Taken taken;
     taken.mean.resize(columns);
     taken.base.resize(q_, columns);
     taken.covariance.resize(columns, columns);
+    std::vector<Address> addresses;
     for (int i = 0; i < columns / 2; ++i) {
-        const Address& a = addresses[static_cast<std::size_t>(i)];
-        taken.mean.segment<2>(2 * i) = mean(a.landmark);
-        taken.base.middleCols<2>(2 * i) = base(a.landmark);
+        const BlockId id = landmarks[static_cast<std::size_t>(i)];
+        addresses.push_back(find(id));
+        taken.mean.segment<2>(2 * i) = mean(id);
+        taken.base.middleCols<2>(2 * i) = base(id);
         for (int j = 0; j < columns / 2; ++j)
-            taken.covariance.block<2, 2>(2 * i, 2 * j) =
-                covariance(a.landmark, addresses[static_cast<std::size_t>(j)].landmark);
+            taken.covariance.block<2, 2>(2 * i, 2 * j) = covariance(id, landmarks[static_cast<std::size_t>(j)]);
     }
     const Eigen::VectorXd std = taken.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    addRows(addresses, std);
     taken.new_rows = columns * (turning_ ? 2 : 1);
-    for (int t = 0; t < tileCount(); ++t) {
-        if (!used(t)) continue;
-        const Eigen::MatrixXd rows = withTurned(rowsIn(t, addresses, std));
-        tile(t).X.conservativeResize(q_ + taken.new_rows, Eigen::NoChange);
-        tile(t).X.bottomRows(taken.new_rows) = rows;
-    }
     row_std_.conservativeResize(q_ + taken.new_rows);
     for (int k = 0; k < taken.new_rows; ++k) row_std_(q_ + k) = std(turning_ ? k / 2 : k);
     q_ += taken.new_rows;
@@ -120,96 +143,125 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
 
 void PassiveMap::remove(BlockId landmark) {
     const Address address = find(landmark);
-    open(address.tile);
     drop(address.tile, {address.index});
     index();
 }
 
-void PassiveMap::commit(const Commit& commit) {
-    // Additions wait for one commit; what is left of the one before is made now.
-    while (!waiting_.empty()) work(std::numeric_limits<double>::infinity());
+void PassiveMap::drop(int t, const std::vector<int>& gone) {
+    if (gone.empty()) return;
+    Tile& own = tile(t);
+    std::vector<int> kept;
+    for (int i = 0; i < own.width() / 2; ++i)
+        if (std::find(gone.begin(), gone.end(), i) == gone.end()) kept.push_back(i);
+    const std::vector<int> columns = coordinatesOf(kept);
+    for (int s = 0; s < tileCount(); ++s) {
+        if (!used(s)) continue;
+        Eigen::MatrixXd& Z = pair(s, t).Z;
+        std::vector<int> stored;
+        for (const int i : columns)
+            if (i < (s <= t ? Z.cols() : Z.rows())) stored.push_back(i);
+        if (s <= t) Z = Eigen::MatrixXd(Z(Eigen::all, stored));
+        if (s >= t) Z = Eigen::MatrixXd(Z(stored, Eigen::all));
+    }
+    for (FarGroup& old : old_groups_) old.dropColumns(t, columns);
+    group_.dropColumns(t, columns);
+    if (!own.far) own.X = Eigen::MatrixXd(own.X(Eigen::all, columns));
+    own.mean = Eigen::VectorXd(own.mean(columns));
+    std::vector<BlockId> landmarks;
+    for (const int i : kept) landmarks.push_back(own.landmarks[static_cast<std::size_t>(i)]);
+    own.landmarks.swap(landmarks);
+}
 
-    Waiting addition;
-    addition.number = commits_++;
-    addition.Psi = commit.Psi;
+void PassiveMap::commit(const Commit& commit) {
+    addTerm(commit.Psi);
+
+    // The new base, and what the landmarks that are put away have to do with those that are away.
+    std::vector<int> first_column(tiles_.size());
     int columns = 0;
     for (int t = 0; t < tileCount(); ++t) {
-        addition.span.emplace_back(columns, used(t) ? tile(t).rank() : 0);
-        columns += addition.span.back().second;
+        first_column[static_cast<std::size_t>(t)] = columns;
+        if (!tile(t).far) columns += tile(t).width();
     }
-    addition.X.resize(q_, columns);
-    for (int t = 0; t < tileCount(); ++t)
-        if (used(t)) addition.X.middleCols(addition.span[static_cast<std::size_t>(t)].first, tile(t).rank()) = tile(t).X;
-
-    Eigen::MatrixXd U(commit.Phi.rows(), columns), V(commit.Phi_landmarks.rows(), columns);
-    multiply(commit.Phi, addition.X, U);
-    multiply(commit.Phi_landmarks, addition.X, V);
-    const Eigen::VectorXd moved = addition.X.transpose() * commit.eta;
+    Eigen::MatrixXd near_rows(commit.Phi_landmarks.rows(), columns);
     for (int t = 0; t < tileCount(); ++t) {
-        if (!used(t)) continue;
-        const auto [first, count] = addition.span[static_cast<std::size_t>(t)];
         Tile& own = tile(t);
-        if (own.open())
-            own.mean += moved.segment(first, count);
-        else
-            own.mean.noalias() += own.Y.transpose() * moved.segment(first, count);
-        own.X = withTurned(U.middleCols(first, count));
+        if (own.far || !used(t)) continue;
+        multiply(commit.Phi_landmarks, own.X,
+                 near_rows.middleCols(first_column[static_cast<std::size_t>(t)], own.width()));
+        own.mean.noalias() += own.X.transpose() * commit.eta;
+        Eigen::MatrixXd U(commit.Phi.rows(), own.width());
+        multiply(commit.Phi, own.X, U);
+        own.X = withTurned(U);
     }
+    const Eigen::MatrixXd far_rows = commit.Phi_landmarks * group_.W;
+    if (group_.rank() > 0) group_.shift.noalias() += group_.W.transpose() * commit.eta;
+    group_.W = withTurned(commit.Phi * group_.W);
     const int rows = turning_ ? 2 : 1;
     q_ = rows * static_cast<int>(commit.Phi.rows());
     row_std_.resize(q_);
     for (int k = 0; k < q_; ++k) row_std_(k) = commit.kept_std(k / rows);
 
-    // New landmarks go to open tiles.
-    std::vector<std::vector<int>> to_tile;
-    for (int j = 0; j < static_cast<int>(commit.landmarks.size()); ++j) {
-        const auto t = static_cast<std::size_t>(tileFor(commit.mean.segment<2>(2 * j)));
-        to_tile.resize(tiles_.size());
-        to_tile[t].push_back(j);
-        tiles_[t].landmarks.push_back(commit.landmarks[static_cast<std::size_t>(j)]);
-        tiles_[t].mean.conservativeResize(tiles_[t].mean.size() + 2);
-        tiles_[t].mean.tail<2>() = commit.mean.segment<2>(2 * j);
-    }
-    to_tile.resize(tiles_.size());
-    std::vector<std::vector<int>> appended(tiles_.size());
-    for (int t = 0; t < tileCount(); ++t)
-        if (!to_tile[static_cast<std::size_t>(t)].empty())
-            appendColumns(t, to_tile[static_cast<std::size_t>(t)], commit, V, addition, appended);
+    append(commit, near_rows, far_rows, first_column);
     index();
-    if (columns > 0) waiting_.push_back(std::move(addition));
-    closeTiles();
 }
 
-void PassiveMap::appendColumns(int t, const std::vector<int>& which, const Commit& commit, const Eigen::MatrixXd& V,
-                               const Waiting& addition, std::vector<std::vector<int>>& appended) {
-    Tile& own = tile(t);
-    const int before = own.rank(), more = 2 * static_cast<int>(which.size());
-    const std::vector<int> columns = coordinatesOf(which);
-    own.X.conservativeResize(q_, before + more);
-    own.X.rightCols(more) = withTurned(commit.kept_covariance(Eigen::all, columns));
-    appended[static_cast<std::size_t>(t)] = which;
-    forPairsOf(t, [&](int s, Pair& p, bool at_columns) {
-        // P of tile s's coordinates with the new columns: first those that were there before the commit.
-        const std::vector<int> others = coordinatesOf(appended[static_cast<std::size_t>(s)]);
-        const int late = static_cast<int>(others.size()), early = tile(s).rank() - late;
-        Eigen::MatrixXd fresh(early + late, more);
-        if (early > 0)
-            fresh.topRows(early) =
-                V(columns, Eigen::seqN(addition.span[static_cast<std::size_t>(s)].first, early)).transpose();
-        fresh.bottomRows(late) = commit.own_covariance(others, columns);
-        if (s == t) {
-            p.Z.conservativeResize(before + more, before + more);
-            p.Z.rightCols(more) = fresh;
-            p.Z.bottomLeftCorner(more, before) = fresh.topRows(before).transpose();
-        } else if (at_columns) {
-            p.Z.conservativeResize(tile(s).rank(), before + more);
-            p.Z.rightCols(more) = fresh;
-        } else {
-            p.Z.conservativeResize(before + more, tile(s).rank());
-            p.Z.bottomRows(more) = fresh.transpose();
+void PassiveMap::append(const Commit& commit, const Eigen::MatrixXd& near_rows, const Eigen::MatrixXd& far_rows,
+                        const std::vector<int>& first_column) {
+    std::vector<std::vector<int>> late(tiles_.size());  // landmarks of the commit, by the tile they are in by now
+    for (int j = 0; j < static_cast<int>(commit.landmarks.size()); ++j) {
+        const int t = tileFor(commit.mean.segment<2>(2 * j));
+        late.resize(tiles_.size());
+        Tile& own = tile(t);
+        const int width = own.width();
+        const auto rows = near_rows.middleRows<2>(2 * j);
+        for (int s = 0; s < tileCount(); ++s) {
+            if (!used(s) || tile(s).far) continue;
+            // First the landmarks that were away before, then those of this commit.
+            const std::vector<int> others = coordinatesOf(late[static_cast<std::size_t>(s)]);
+            const int after = static_cast<int>(others.size()), before = tile(s).width() - after;
+            Eigen::MatrixXd P(2, before + after);
+            if (before > 0) P.leftCols(before) = rows.middleCols(first_column[static_cast<std::size_t>(s)], before);
+            P.rightCols(after) = commit.own_covariance.middleRows<2>(2 * j)(Eigen::all, others);
+            addBlock(s, 0, t, width, P.transpose());
+            if (s == t) addBlock(t, width, t, 0, P);
         }
-        if (p.D.size() > 0) appendZeros(p.D, more, at_columns);
-    });
+        addBlock(t, width, t, width, commit.own_covariance.block<2, 2>(2 * j, 2 * j));
+
+        own.X.conservativeResize(q_, width + 2);
+        own.X.rightCols<2>() = withTurned(commit.kept_covariance.middleCols<2>(2 * j));
+        own.mean.conservativeResize(width + 2);
+        own.mean.tail<2>() = commit.mean.segment<2>(2 * j);
+        FarGroup::Part& part = group_.part(t);
+        part.C.conservativeResize(width + 2, group_.rank());
+        part.C.bottomRows<2>() = far_rows.middleRows<2>(2 * j);
+        own.landmarks.push_back(commit.landmarks[static_cast<std::size_t>(j)]);
+        late[static_cast<std::size_t>(t)].push_back(j);
+    }
+}
+
+void PassiveMap::addTerm(const Eigen::MatrixXd& Psi) {
+    int columns = 0;
+    for (int t = 0; t < tileCount(); ++t)
+        if (!tile(t).far) columns += tile(t).width();
+    Eigen::MatrixXd X(q_, columns), product, sum;
+    columns = 0;
+    for (int t = 0; t < tileCount(); ++t) {
+        if (tile(t).far || !used(t)) continue;
+        const int width = tile(t).width();
+        X.middleCols(columns, width) = tile(t).X;
+        columns += width;
+        product.resize(q_, width);
+        sum.resize(columns, width);
+        multiply(Psi, tile(t).X, product);
+        multiplyTransposed(X.leftCols(columns), product, sum);
+        for (int s = 0, first = 0; s <= t; ++s) {
+            if (tile(s).far || !used(s)) continue;
+            addBlock(s, 0, t, 0, sum.middleRows(first, tile(s).width()));
+            first += tile(s).width();
+        }
+        if (group_.rank() > 0) group_.part(t).C.noalias() += product.transpose() * group_.W;
+    }
+    if (group_.rank() > 0) group_.zeta.noalias() += group_.W.transpose() * (Psi * group_.W);
 }
 
 }  // namespace slamot

@@ -18,7 +18,6 @@ struct ActiveSetParameters {
     double base_growth = 3;         ///< commit when dim(beta) exceeds this times the active dimension
     double retirable_part = 0.25;   ///< commit when this part of the active landmarks is out of reach
     int keep_at_least = 100;        ///< active landmarks; fewer are not worth a commit
-    double work_per_step = 1e7;     ///< multiplications spent on the queue of the passive map
 };
 
 /// The table `[name]`.

@@ -18,6 +18,9 @@ void solveLowerTransposedFromRight(const MatrixIn& L, MatrixOut W);
 /// C <- A B.
 void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
 
+/// A B.
+Eigen::MatrixXd product(const MatrixIn& A, const MatrixIn& B);
+
 /// C <- A^t B.
 void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
 

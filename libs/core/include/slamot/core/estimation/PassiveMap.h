@@ -2,15 +2,13 @@
 // The landmarks that a compressed joint state has put away: b = b0 + B^t beta + e, where beta is the base, which the
 // modes keep with the active state, and e, with covariance P_bb0, is independent of everything else.
 //
-// How P_bb0 and B are kept (doc/maths/compressed_engine.md). Landmarks are grouped into tiles. What a tile has to do
-// with far places takes few directions Y (r x w, orthonormal rows, closed under the quarter turn):
-//
-//   B_t = X_t Y_t,    P_st = D_st + Y_s^t Z_st Y_t.
-//
-// A commit adds B^t Psi B to P_bb0, which is X_s^t Psi X_t in Z_st, r_s x r_t numbers instead of w_s x w_t, and turns
-// X_t into Phi X_t. D_st is touched only when a tile gets another Y. An open tile, one near the robot, has Y = I.
-// The additions to Z wait in a queue and are made in slices by `work`, or at once for a tile that is opened. Y leaves
-// out what is below rounding: directions with less than `tolerance` of a standard deviation.
+// How P_bb0 and B are kept (doc/maths/compressed_engine.md). Landmarks stand in tiles of neighbours; P_bb0 is one
+// block for each pair of tiles. Tiles near the robot have their columns X_t of B; all the others are one FarGroup.
+// A commit, P_bb0 += B^t Psi B, goes into the blocks of near tiles at once and waits in the group for the others.
+// When the robot has moved on, the tiles are grouped anew, and what waits in the old group is added to the blocks in
+// slices by `step`; who asks for a covariance before gets it with what is waiting. The group leaves out what is below
+// rounding: directions along which less than `tolerance` of a standard deviation is known.
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -19,6 +17,7 @@
 
 #include "slamot/core/data/Pose2.h"
 #include "slamot/core/estimation/Blocks.h"
+#include "slamot/core/estimation/FarGroup.h"
 
 namespace slamot {
 
@@ -27,7 +26,7 @@ class PassiveMap {
     /// `turning`: base rows come in pairs, the second turned by a quarter turn (the invariant core).
     explicit PassiveMap(bool turning) : turning_(turning) {}
 
-    int size() const { return size_; }
+    int size() const { return static_cast<int>(addresses_.size()); }
     /// dim(beta), rows of B.
     int baseDimension() const { return q_; }
     bool contains(BlockId landmark) const;
@@ -39,15 +38,12 @@ class PassiveMap {
     Eigen::MatrixXd base(BlockId landmark) const;
     /// P_bb0 between two landmarks.
     Matrix2 covariance(BlockId a, BlockId b) const;
-
-    /// action(landmark, position) for every landmark, with the base at eta.
+    /// action(landmark, position) for every landmark near the robot, with the base at eta.
     template <class Action>
-    void forPositions(const Eigen::Ref<const Eigen::VectorXd>& eta, const Action& action) const {
+    void forNearPositions(const Eigen::Ref<const Eigen::VectorXd>& eta, const Action& action) const {
         for (const Tile& t : tiles_) {
-            if (t.landmarks.empty()) continue;
-            Eigen::VectorXd position = t.X.transpose() * eta;
-            if (!t.open()) position = t.Y.transpose() * position;
-            position += t.mean;
+            if (t.landmarks.empty() || t.far) continue;
+            const Eigen::VectorXd position = t.mean + t.X.transpose() * eta;
             for (std::size_t i = 0; i < t.landmarks.size(); ++i)
                 action(t.landmarks[i], Vector2(position.segment<2>(2 * static_cast<Eigen::Index>(i))));
         }
@@ -74,25 +70,26 @@ class PassiveMap {
         Eigen::VectorXd eta;       ///< mean of beta
         Eigen::VectorXd kept_std;  ///< standard deviations of the kept coordinates; 0 for known ones
         std::vector<BlockId> landmarks;
-        Eigen::VectorXd mean;              ///< of the landmarks put away
-        Eigen::MatrixXd Phi_landmarks;     ///< their P with beta
-        Eigen::MatrixXd kept_covariance;   ///< P of the kept active coordinates with them
-        Eigen::MatrixXd own_covariance;    ///< P of them
+        Eigen::VectorXd mean;             ///< of the landmarks put away
+        Eigen::MatrixXd Phi_landmarks;    ///< their P with beta
+        Eigen::MatrixXd kept_covariance;  ///< P of the kept active coordinates with them
+        Eigen::MatrixXd own_covariance;   ///< P of them
     };
-    /// b0 += B^t eta, P_bb0 += B^t Psi B, then B has the covariances of the kept coordinates as its rows. Tiles that
-    /// have become far from the kept coordinates get another Y.
+    /// b0 += B^t eta, P_bb0 += B^t Psi B, then B has the covariances of the kept coordinates as its rows.
     void commit(const Commit& commit);
-    /// [m] How far from a tile's centre a landmark that joins it may lie.
-    void setTileReach(double reach) { tile_reach_ = reach; }
 
-    /// Makes additions to Z that are waiting, about `multiplications` of them.
-    void work(double multiplications);
+    /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when the robot
+    /// has moved far enough; says whether it did.
+    bool follow(const Vector2& robot, double reach);
 
-    /// Numbers kept on the heap.
+    /// One step's part of adding to blocks what waits in old groups.
+    void step();
+
+    /// Bytes of covariances and base.
     std::size_t memory() const;
     struct Census {
-        int tiles = 0, open = 0, directions = 0, columns = 0, waiting = 0;
-        std::int64_t closings = 0, openings = 0, extensions = 0;
+        int tiles = 0, near = 0, near_columns = 0, columns = 0, directions = 0, waiting = 0;
+        std::int64_t regroupings = 0;
     };
     Census census() const;
 
@@ -100,75 +97,62 @@ class PassiveMap {
     struct Tile {
         std::vector<BlockId> landmarks;  ///< none: the place is free
         Eigen::VectorXd mean;
-        Eigen::MatrixXd X;  ///< q x r
-        Eigen::MatrixXd Y;  ///< r x w, orthonormal rows; empty while the tile is open
-        int directions_at_closing = 0;
-        std::int64_t next_try = 0, pause = 0;  ///< closing is tried from this commit on; commits to the one after
+        bool far = false;
+        Eigen::MatrixXd X;  ///< near: B's columns
 
-        bool open() const { return Y.size() == 0; }
-        int rank() const { return static_cast<int>(X.cols()); }
         int width() const { return 2 * static_cast<int>(landmarks.size()); }
         Vector2 centre() const;
     };
-    struct Pair {  ///< of tiles s <= t
-        Eigen::MatrixXd Z;      ///< r_s x r_t
-        Eigen::MatrixXd D;      ///< w_s x w_t; empty: zero
-        std::int64_t done = 0;  ///< number of the first commit not yet in Z
-    };
-    /// A commit's addition to P_bb0.
-    struct Waiting {
-        std::int64_t number;
-        Eigen::MatrixXd X, Psi;                ///< X of all tiles side by side
-        std::vector<std::pair<int, int>> span;  ///< first column and count, by tile
+    struct Pair {           ///< of tiles s <= t
+        Eigen::MatrixXd Z;  ///< P of their landmarks; what lies beyond its size is zero
+        std::int64_t done = 0;  ///< number of the first old group not yet in Z
     };
     struct Address {
         BlockId landmark;
         int tile, index;
     };
 
-    const Address& find(BlockId landmark) const;
-    void index();
-    Pair& pair(int s, int t) { return pairs_[static_cast<std::size_t>(t)][static_cast<std::size_t>(s)]; }
-    const Pair& pair(int s, int t) const { return pairs_[static_cast<std::size_t>(t)][static_cast<std::size_t>(s)]; }
     Tile& tile(int t) { return tiles_[static_cast<std::size_t>(t)]; }
     const Tile& tile(int t) const { return tiles_[static_cast<std::size_t>(t)]; }
-    bool used(int t) const { return !tiles_[static_cast<std::size_t>(t)].landmarks.empty(); }
     int tileCount() const { return static_cast<int>(tiles_.size()); }
-    /// For every used tile s: action(s, pair, whether the tile t stands at the pair's columns).
-    template <class Action>
-    void forPairsOf(int t, const Action& action) {
-        for (int s = 0; s < tileCount(); ++s)
-            if (used(s)) action(s, s <= t ? pair(s, t) : pair(t, s), s <= t);
+    bool used(int t) const { return !tile(t).landmarks.empty(); }
+    Pair& pair(int s, int t) {
+        return pairs_[static_cast<std::size_t>(std::max(s, t))][static_cast<std::size_t>(std::min(s, t))];
     }
-
-    /// The additions of one commit to pairs (s, t), for s < end.
-    void add(const Waiting& waiting, int t, int end);
-    void settle(int t);
-    void open(int t);
-    bool close(int t);
-    void closeTiles();
-    /// Takes columns out of an open tile.
-    void drop(int t, const std::vector<int>& gone);
-    int tileFor(const Vector2& position);
-    void appendColumns(int t, const std::vector<int>& which, const Commit& commit, const Eigen::MatrixXd& V,
-                       const Waiting& addition, std::vector<std::vector<int>>& appended);
-    /// P_c,t0 in the coordinates of tile t, whose Y grows where it has to.
-    Eigen::MatrixXd rowsIn(int t, const std::vector<Address>& taken, const Eigen::VectorXd& std);
+    const Pair& pair(int s, int t) const { return const_cast<PassiveMap*>(this)->pair(s, t); }
+    const Address& find(BlockId landmark) const;
+    void index();
     Eigen::MatrixXd withTurned(const Eigen::MatrixXd& rows) const;
 
+    /// Adds P to the block of coordinates of s from `row` on and of t from `column` on.
+    void addBlock(int s, int row, int t, int column, const Eigen::Ref<const Eigen::MatrixXd>& P);
+    /// Longest standard deviation of a landmark, roughly: what tolerances refer to.
+    double landmarkStd() const;
+    void addRows(const std::vector<Address>& taken, const Eigen::VectorXd& std);
+    void drop(int t, const std::vector<int>& gone);
+    int tileFor(const Vector2& position);
+    /// What a commit adds to P_bb0.
+    void addTerm(const Eigen::MatrixXd& Psi);
+    void append(const Commit& commit, const Eigen::MatrixXd& near_rows, const Eigen::MatrixXd& far_rows,
+                const std::vector<int>& first_column);
+    void work(double multiplications);
+    /// Ends the present group; far are then the tiles for which far[t].
+    void regroup(const std::vector<char>& far);
+
     bool turning_;
-    int size_ = 0, q_ = 0;
-    Eigen::VectorXd row_std_;  ///< of the coordinate behind each base row
+    int q_ = 0;
+    Eigen::VectorXd row_std_;  ///< standard deviation of the coordinate behind each base row
     std::vector<Tile> tiles_;
     std::vector<std::vector<Pair>> pairs_;  ///< [t][s], s <= t
     std::vector<Address> addresses_;        ///< by landmark
-    std::deque<Waiting> waiting_;
-    std::int64_t commits_ = 0;
-    double tile_reach_ = std::numeric_limits<double>::infinity();
-    int next_closing_ = 0;  ///< the tile to look at first
-    Eigen::MatrixXd product_, addition_;  ///< work space
-    int next_tile_ = 0;  ///< where `work` goes on in the oldest of waiting_
-    Census counts_;
+    FarGroup group_;
+    std::deque<FarGroup> old_groups_;
+    int next_s_ = 0, next_t_ = 0;  ///< where `work` goes on in the oldest of old_groups_
+    Vector2 robot_ = Vector2::Zero(), grouped_at_ = Vector2::Zero();
+    double reach_ = std::numeric_limits<double>::infinity();
+    std::int64_t regroupings_ = 0;
+    double queued_ = 0;  ///< multiplications that were waiting after the last regrouping
+    double steps_between_regroupings_ = 0, steps_since_regrouping_ = 0;
 };
 
 }  // namespace slamot
