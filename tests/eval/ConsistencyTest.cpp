@@ -49,6 +49,19 @@ TEST(Nees, UnitsDoNotWeigh) {
     EXPECT_EQ(n.dimension, 2);
 }
 
+TEST(Nees, ADirectionOfRoundOffDoesNotCount) {
+    // Along (1, 1) / sqrt(2) the variance is 2 - 1e-11, along (1, -1) / sqrt(2) it is 1e-11: 5e-12 of the other, less
+    // than the 1e-9 that estimators are held to. Only the first counts: e = (1e-3, -1e-3) has nothing along it.
+    Matrix2 P;
+    P << 1, 1 - 1e-11, 1 - 1e-11, 1;
+    const SquaredError n = nees(Vector2(1e-3, -1e-3), P);
+    EXPECT_EQ(n.dimension, 1);
+    EXPECT_NEAR(n.value, 0, 1e-12);
+    // At 1e-6 it is a variance: 2e-6 / 1e-6 = 2.
+    P << 1, 1 - 1e-6, 1 - 1e-6, 1;
+    EXPECT_NEAR(nees(Vector2(1e-3, -1e-3), P).value, 2, 1e-8);
+}
+
 TEST(ChiSquare, AgreesWithPrintedTables) {
     // Tables of the chi-square distribution, to the digits printed there.
     EXPECT_NEAR(chiSquareQuantile(0.95, 2), 5.991, 5e-4);

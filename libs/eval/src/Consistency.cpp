@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "Median.h"
+#include "slamot/core/plugin/Estimator.h"
 
 namespace slamot::eval {
 
@@ -32,7 +33,8 @@ SquaredError nees(const SmallVector& error, const SmallMatrix& covariance) {
     const SmallVector along = eigen.eigenvectors().transpose() * scaled;
     SquaredError squared;
     for (Eigen::Index i = 0; i < n; ++i) {
-        if (variances(i) <= 1e-12 * variances.maxCoeff()) continue;
+        // Below what estimators are held to there is round-off only: the error along it would be weighed by noise.
+        if (variances(i) <= Estimator::definiteness_tolerance * variances.maxCoeff()) continue;
         squared.value += along(i) * along(i) / variances(i);
         ++squared.dimension;
     }

@@ -22,7 +22,7 @@ struct SquaredError {
 };
 
 /// e' P^+ e, never divided by the dimension. A coordinate of zero variance is known exactly and left out, and
-/// so is a direction whose variance is below 1e-12 of the largest once P is scaled to a correlation matrix.
+/// so is a direction whose variance is below 1e-9 of the largest (the definiteness tolerance) once P is scaled to a correlation matrix.
 SquaredError nees(const SmallVector& error, const SmallMatrix& covariance);
 
 struct NeesStep {
