@@ -14,7 +14,7 @@ if [ "${SLAMOT_TEST_SANITIZERS:-1}" != 0 ]; then
     echo "== sanitizer build: unit and conformance tests"
     cmake --preset asan >/dev/null
     cmake --build --preset asan
-    ctest --preset asan -j "$(nproc)" -L 'core|rawlog|sim|eval|report|run|conformance|plugins' -LE long --quiet \
+    ctest --preset asan -j "$(nproc)" -L 'core|rawlog|sim|eval|report|run|study|conformance|plugins' -LE long --quiet \
         -O build/asan/ctest.log || { tail -n 60 build/asan/ctest.log; exit 1; }
     tail -n 4 build/asan/ctest.log
 fi
