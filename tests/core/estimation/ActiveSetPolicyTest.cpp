@@ -1,6 +1,6 @@
-#include "slamot/core/estimation/ActiveSetPolicy.h"
-
 #include <gtest/gtest.h>
+
+#include "slamot/core/estimation/ActiveSetPolicy.h"
 
 namespace slamot {
 namespace {

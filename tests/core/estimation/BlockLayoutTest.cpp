@@ -1,8 +1,8 @@
-#include "slamot/core/estimation/BlockLayout.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "slamot/core/estimation/BlockLayout.h"
 
 namespace slamot {
 namespace {

@@ -1,6 +1,4 @@
 // The compressed bank against the dense one: the same operations, the same numbers.
-#include "slamot/core/estimation/CompressedJointBank.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/Definiteness.h"
 #include "slamot/core/estimation/DenseJointBank.h"
 #include "support/Expect.h"
@@ -53,7 +52,8 @@ class Twins {
 
     void propagate(BlockId id, int mode) {
         const auto size = dense.mode(mode).mean(id).size();
-        const Eigen::VectorXd mean = dense.mode(mode).mean(id) + 0.1 * randomVector(random, static_cast<int>(size));
+        const Eigen::VectorXd mean =
+            dense.mode(mode).mean(id) + 0.1 * randomVector(random, static_cast<int>(size));
         const Eigen::MatrixXd F = Eigen::MatrixXd::Identity(size, size) +
                                   0.1 * randomMatrix(random, static_cast<int>(size), static_cast<int>(size));
         const Eigen::MatrixXd Q = randomCovariance(random, static_cast<int>(size), 0.1);
@@ -179,10 +179,11 @@ class Twins {
                 return testing::AssertionFailure() << "mean of " << id << ": " << same.message();
         const Eigen::MatrixXd P = a.jointCovariance(all()), Q = b.jointCovariance(inCompressed(all()));
         if ((P - Q).cwiseAbs().maxCoeff() > tolerance * P.cwiseAbs().maxCoeff())
-            return testing::AssertionFailure() << "covariances differ by " << (P - Q).cwiseAbs().maxCoeff() << " of "
-                                               << P.cwiseAbs().maxCoeff();
+            return testing::AssertionFailure() << "covariances differ by " << (P - Q).cwiseAbs().maxCoeff()
+                                               << " of " << P.cwiseAbs().maxCoeff();
         for (const auto& [id, name] : names)
-            if (auto same = near(b.covariance(name, robot_block), a.covariance(id, robot_block), tolerance); !same)
+            if (auto same = near(b.covariance(name, robot_block), a.covariance(id, robot_block), tolerance);
+                !same)
                 return testing::AssertionFailure() << "covariance of " << id << ": " << same.message();
         return testing::AssertionSuccess();
     }
@@ -229,7 +230,7 @@ TEST_P(CompressedJointBankTest, ExactBetweenCommits) {
         if (step == 4) pair.augment(BlockKind::landmark);
         if (step == 6) pair.activate({1});
         if (step == 8) pair.augment(BlockKind::target);
-        if (step == 9) pair.remove(9);  // the target
+        if (step == 9) pair.remove(9);   // the target
         if (step == 10) pair.remove(3);  // a landmark that is put away
         ASSERT_TRUE(pair.agree(1e-12)) << "structure " << step;
     }
@@ -260,7 +261,8 @@ TEST_P(CompressedJointBankTest, RandomSequences) {
                 pair.commit(pair.some(0.4, true));
             } else {
                 const auto ids = pair.all();
-                const auto id = ids[static_cast<std::size_t>(pair.random.uniform(0, static_cast<double>(ids.size())))];
+                const auto id =
+                    ids[static_cast<std::size_t>(pair.random.uniform(0, static_cast<double>(ids.size())))];
                 if (id != robot_block) pair.remove(id);
             }
             ASSERT_TRUE(pair.agree()) << "sequence " << sequence << " step " << step << " choice " << choice;
@@ -281,8 +283,9 @@ INSTANTIATE_TEST_SUITE_P(All, CompressedJointBankTest,
                          testing::Values(Core{Consistency::classic, 1}, Core{Consistency::invariant, 1},
                                          Core{Consistency::classic, 3}, Core{Consistency::invariant, 3}),
                          [](const auto& each) {
-                             return std::string(each.param.consistency == Consistency::classic ? "classic"
-                                                                                               : "invariant") +
+                             return std::string(each.param.consistency == Consistency::classic
+                                                    ? "classic"
+                                                    : "invariant") +
                                     std::to_string(each.param.modes);
                          });
 

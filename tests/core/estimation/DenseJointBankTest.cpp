@@ -154,7 +154,8 @@ TEST_P(DenseJointBankTest, CovarianceStaysSemidefiniteOverAThousandSteps) {
     for (int step = 0; step < 1000; ++step) {
         pair.propagate(step % 3 == 0);
         pair.update();
-        ASSERT_TRUE(isPositiveSemidefinite(pair.engine.mode(0).jointCovariance(pair.allBlocks()), 1e-9)) << step;
+        ASSERT_TRUE(isPositiveSemidefinite(pair.engine.mode(0).jointCovariance(pair.allBlocks()), 1e-9))
+            << step;
     }
 }
 
@@ -198,7 +199,8 @@ TEST(DenseJointBankTest, ExtraBlocksDoNotTurnWithTheWorld) {
               Eigen::MatrixXd(invariant.engine.mode(0).covariance(2, 2)));
     EXPECT_NE(Eigen::MatrixXd(classic.engine.mode(0).covariance(1, 1)),
               Eigen::MatrixXd(invariant.engine.mode(0).covariance(1, 1)));
-    EXPECT_EQ(Eigen::MatrixXd(classic.engine.mode(0).mean(1)), Eigen::MatrixXd(invariant.engine.mode(0).mean(1)));
+    EXPECT_EQ(Eigen::MatrixXd(classic.engine.mode(0).mean(1)),
+              Eigen::MatrixXd(invariant.engine.mode(0).mean(1)));
 }
 
 TEST(DenseJointBankTest, ClonesAreIndependent) {
@@ -214,10 +216,11 @@ TEST(DenseJointBankTest, ClonesAreIndependent) {
     clone->remove(3);
     EXPECT_NO_THROW(pair.engine.mode(0).mean(3));
     // Ids go on from the same number in both and stay apart.
-    EXPECT_EQ(
-        clone->augment(BlockKind::landmark, {Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
-        4);
-    EXPECT_EQ(pair.engine.augment(BlockKind::extra, {Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3), Eigen::MatrixXd::Ones(1, 1)}),
+    EXPECT_EQ(clone->augment(BlockKind::landmark,
+                             {Vector2(1, 2), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
+              4);
+    EXPECT_EQ(pair.engine.augment(BlockKind::extra, {Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Zero(1, 3),
+                                                     Eigen::MatrixXd::Ones(1, 1)}),
               4);
     EXPECT_EQ(clone->mode(0).mean(4).size(), 2);
     EXPECT_EQ(pair.engine.mode(0).mean(4).size(), 1);
@@ -232,7 +235,8 @@ TEST(DenseJointBankTest, RemovedBlocksAreGoneAndIdsNotReused) {
     EXPECT_THROW(pair.engine.mode(0).mean(-1), std::out_of_range);
     EXPECT_THROW(pair.engine.mode(0).mean(99), std::out_of_range);
     EXPECT_THROW(pair.engine.remove(robot_block), std::invalid_argument);
-    EXPECT_EQ(pair.engine.augment(BlockKind::landmark, {Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
+    EXPECT_EQ(pair.engine.augment(BlockKind::landmark,
+                                  {Vector2(0, 0), Eigen::MatrixXd::Zero(2, 3), Matrix2::Identity()}),
               4);
 }
 

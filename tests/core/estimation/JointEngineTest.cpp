@@ -1,8 +1,7 @@
 // Whole runs of JointFilter with both engines: a robot on a loop of several hundred metres, twice, among many
 // landmarks, with movers that come and go.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +64,8 @@ class Loop {
         if (step % 30 < 12)
             detections.push_back(test::seen(pose_, pose_ * Vector2(-6 + step % 30, 3), ObjectKind::mover, 0));
         if (step % 50 > 40)
-            detections.push_back(test::seen(pose_, pose_ * Vector2(4, 10 - 2 * (step % 50 - 40)), ObjectKind::mover, 1));
+            detections.push_back(
+                test::seen(pose_, pose_ * Vector2(4, 10 - 2 * (step % 50 - 40)), ObjectKind::mover, 1));
         for (RangeBearingDetection& d : detections) {
             d.range += 0.1 * random_.normal();
             d.bearing = wrapAngle(d.bearing + 0.02 * random_.normal());
@@ -95,7 +95,8 @@ class JointEngines : public testing::TestWithParam<Consistency> {};
 
 TEST_P(JointEngines, AgreeOverAWholeRun) {
     // The engines add the same numbers in another order, some 1e4 times; the map leaves
-    // out what is below 1e-10 of a standard deviation. 1e-9 of the largest number of a kind is what is promised.
+    // out what is below 1e-10 of a standard deviation. 1e-9 of the largest number of a kind is what is
+    // promised.
     Loop loop;
     JointFilter dense = filterWith(JointEngine::Kind::dense, GetParam()),
                 compressed = filterWith(JointEngine::Kind::compressed, GetParam());

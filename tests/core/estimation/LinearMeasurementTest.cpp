@@ -1,12 +1,11 @@
 // The likelihood of a batch against densities by inverse and determinant.
-#include "slamot/core/estimation/LinearMeasurement.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "slamot/core/estimation/DenseJointBank.h"
+#include "slamot/core/estimation/LinearMeasurement.h"
 #include "support/RandomMatrices.h"
 
 namespace slamot {
@@ -27,8 +26,9 @@ TEST(BatchLikelihoodTest, ConditionalAndMarginalDensities) {
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, 9), R = Eigen::MatrixXd::Zero(6, 6);
     Eigen::VectorXd nu(6);
     for (int i = 0; i < 3; ++i) {
-        const BlockId id = bank.augment(BlockKind::landmark, {randomVector(random, 2), randomMatrix(random, 2, 3),
-                                                              randomCovariance(random, 2)});
+        const BlockId id =
+            bank.augment(BlockKind::landmark,
+                         {randomVector(random, 2), randomMatrix(random, 2, 3), randomCovariance(random, 2)});
         LinearMeasurement m;
         m.add(robot_block, randomMatrix(random, 2, 3));
         m.add(id, randomMatrix(random, 2, 2));
@@ -47,7 +47,8 @@ TEST(BatchLikelihoodTest, ConditionalAndMarginalDensities) {
     EXPECT_NEAR(likelihood.logConditional(4, 2),
                 logNormal(nu, S) - logNormal(nu.head(4), S.topLeftCorner(4, 4)), 1e-11);
     EXPECT_NEAR(likelihood.logConditional(2, 2),
-                logNormal(nu.head(4), S.topLeftCorner(4, 4)) - logNormal(nu.head(2), S.topLeftCorner(2, 2)), 1e-11);
+                logNormal(nu.head(4), S.topLeftCorner(4, 4)) - logNormal(nu.head(2), S.topLeftCorner(2, 2)),
+                1e-11);
     EXPECT_NEAR(likelihood.logMarginal(4, 2), logNormal(nu.tail(2), S.bottomRightCorner(2, 2)), 1e-11);
     EXPECT_NEAR(likelihood.logMarginal(2, 4), logNormal(nu.tail(4), S.bottomRightCorner(4, 4)), 1e-11);
     EXPECT_NEAR(likelihood.logMarginal(0, 4), logNormal(nu.head(4), S.topLeftCorner(4, 4)), 1e-11);

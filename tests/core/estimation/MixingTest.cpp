@@ -118,8 +118,9 @@ TEST_P(Mixing, NothingMixedIsNothingChanged) {
 }
 
 TEST_P(Mixing, ACommitKeepsWhatIsKnownTogetherAndEachModesOwnRest) {
-    // Put away: both landmarks. Weighted with the commit's weights, mean and covariance of everything stay as they
-    // were when matched at the merged mean; mean and covariance of robot, target and extra stay each mode's own.
+    // Put away: both landmarks. Weighted with the commit's weights, mean and covariance of everything stay as
+    // they were when matched at the merged mean; mean and covariance of robot, target and extra stay each
+    // mode's own.
     DenseJointBank bank = threeModes(GetParam());
     const Eigen::Vector3d weights(0.5, 0.2, 0.3);
     const std::vector<BlockId> rest{0, 2, 3};
@@ -131,23 +132,31 @@ TEST_P(Mixing, ACommitKeepsWhatIsKnownTogetherAndEachModesOwnRest) {
     }
     bank.commit({1, 4}, weights);
 
-    const auto matched = [&](const std::vector<Moments>& modes) {  // every mode transported to the merged mean
-        Moments out = mixture(modes, weights, GetParam());
-        out.P.setZero();
-        for (int i = 0; i < 3; ++i) {
-            Eigen::VectorXd d = modes[static_cast<std::size_t>(i)].x - out.x;
-            d(2) = wrapAngle(d(2));
-            const Eigen::MatrixXd D =
-                GetParam() == Consistency::invariant ? transport(-d) : Eigen::MatrixXd::Identity(n, n);
-            out.P += weights(i) * (D * modes[static_cast<std::size_t>(i)].P * D.transpose() + d * d.transpose());
-        }
-        return out;
-    };
+    const auto matched =
+        [&](const std::vector<Moments>& modes) {  // every mode transported to the merged mean
+            Moments out = mixture(modes, weights, GetParam());
+            out.P.setZero();
+            for (int i = 0; i < 3; ++i) {
+                Eigen::VectorXd d = modes[static_cast<std::size_t>(i)].x - out.x;
+                d(2) = wrapAngle(d(2));
+                const Eigen::MatrixXd D =
+                    GetParam() == Consistency::invariant ? transport(-d) : Eigen::MatrixXd::Identity(n, n);
+                out.P += weights(i) *
+                         (D * modes[static_cast<std::size_t>(i)].P * D.transpose() + d * d.transpose());
+            }
+            return out;
+        };
     std::vector<Moments> after;
     for (int i = 0; i < 3; ++i) {
         after.push_back(momentsOf(bank.mode(i)));
         EXPECT_TRUE(near(bank.mode(i).jointCovariance(rest), own[static_cast<std::size_t>(i)], 1e-12)) << i;
-        for (const BlockId id : rest) EXPECT_TRUE(near(bank.mode(i).mean(id).head(1), before[static_cast<std::size_t>(i)].x.segment(id == 0 ? 0 : id == 2 ? 5 : 11, 1), 1e-14));
+        for (const BlockId id : rest)
+            EXPECT_TRUE(near(bank.mode(i).mean(id).head(1),
+                             before[static_cast<std::size_t>(i)].x.segment(id == 0   ? 0
+                                                                           : id == 2 ? 5
+                                                                                     : 11,
+                                                                           1),
+                             1e-14));
         EXPECT_TRUE(isPositiveSemidefinite(after.back().P, 1e-9));
     }
     // Conditions of P_aa here are some 1e2, so 1e-12.
@@ -156,8 +165,11 @@ TEST_P(Mixing, ACommitKeepsWhatIsKnownTogetherAndEachModesOwnRest) {
     // b given a is one for all modes: P_ba P_aa^-1, seen without the transport in the classic core.
     if (GetParam() == Consistency::invariant) return;
     const std::vector<int> a{0, 1, 2, 5, 6, 7, 8, 9, 10, 11}, b{3, 4, 12, 13};
-    const auto gain = [&](const Moments& m) { return Eigen::MatrixXd(m.P(b, a) * Eigen::MatrixXd(m.P(a, a)).inverse()); };
-    for (int i = 1; i < 3; ++i) EXPECT_TRUE(near(gain(after[static_cast<std::size_t>(i)]), gain(after[0]), 1e-11));
+    const auto gain = [&](const Moments& m) {
+        return Eigen::MatrixXd(m.P(b, a) * Eigen::MatrixXd(m.P(a, a)).inverse());
+    };
+    for (int i = 1; i < 3; ++i)
+        EXPECT_TRUE(near(gain(after[static_cast<std::size_t>(i)]), gain(after[0]), 1e-11));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Mixing, testing::Values(Consistency::classic, Consistency::invariant),

@@ -1,8 +1,7 @@
-#include "slamot/core/estimation/TurningBasis.h"
-
 #include <gtest/gtest.h>
 
 #include "slamot/core/data/Pose2.h"
+#include "slamot/core/estimation/TurningBasis.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
@@ -17,7 +16,8 @@ TEST(TurningBasisTest, TurnsEveryVector) {
     const Eigen::MatrixXd rows = randomMatrix(random, 3, 8), turned = turnedRows(rows);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 8; k += 2)
-            EXPECT_EQ(turned.row(i).segment<2>(k).transpose(), quarterTurn() * rows.row(i).segment<2>(k).transpose());
+            EXPECT_EQ(turned.row(i).segment<2>(k).transpose(),
+                      quarterTurn() * rows.row(i).segment<2>(k).transpose());
 }
 
 TEST(TurningBasisTest, SpansTheRowsAndTheTurnedRows) {

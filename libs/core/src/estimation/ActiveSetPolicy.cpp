@@ -6,7 +6,8 @@
 namespace slamot {
 
 ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
-    ParameterTable table(name, "What the compressed engine keeps within reach, and when it puts landmarks away.");
+    ParameterTable table(name,
+                         "What the compressed engine keeps within reach, and when it puts landmarks away.");
     table
         .optionalReal("range", p.range, "m", Interval::positive(),
                       "How far the sensors see; auto: their own limits, or the longest range met.")

@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/BlockGaussian.h"
 
 #include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -57,7 +56,8 @@ void BlockGaussian::set(const Eigen::Ref<const Eigen::VectorXd>& mean,
 
 void BlockGaussian::remove(int offset, int count) {
     const int tail = n_ - offset - count, from = offset + count;
-    // Every column moves up, and those behind the gap also to the left: forward copies, so overlap does no harm.
+    // Every column moves up, and those behind the gap also to the left: forward copies, so overlap does no
+    // harm.
     std::copy_n(x_.data() + from, tail, x_.data() + offset);
     for (int j = 0; j < offset; ++j) std::copy_n(&P_(0, j) + from, tail, &P_(0, j) + offset);
     for (int j = 0; j < tail; ++j)
@@ -73,8 +73,8 @@ void BlockGaussian::gatherColumns(int first, Eigen::Ref<Eigen::MatrixXd, 0, Eige
         for (int i = 0; i < j; ++i) out(first + i, j) = P_(first + j, first + i);
 }
 
-void BlockGaussian::scatterColumns(int first,
-                                   const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& columns) {
+void BlockGaussian::scatterColumns(
+    int first, const Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>& columns) {
     const int count = static_cast<int>(columns.cols());
     P_.block(first, 0, count, first) = columns.topRows(first).transpose();
     P_.block(first, first, n_ - first, count) = columns.bottomRows(n_ - first);
@@ -98,9 +98,11 @@ void BlockGaussian::augment(const NewBlock& block) {
     P_.block(before, before, size, size) += P_.block(before, 0, size, 3) * block.G.transpose();
 }
 
-void BlockGaussian::propagate(const BlockLayout& layout, BlockId id, const Eigen::Ref<const Eigen::VectorXd>& mean,
+void BlockGaussian::propagate(const BlockLayout& layout, BlockId id,
+                              const Eigen::Ref<const Eigen::VectorXd>& mean,
                               const Eigen::Ref<const Eigen::MatrixXd>& F,
-                              const Eigen::Ref<const Eigen::MatrixXd>& Q, const std::vector<Coupling>& couplings) {
+                              const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                              const std::vector<Coupling>& couplings) {
     const BlockPlace& b = layout.at(id);
     auto columns = columns_.topLeftCorner(n_, b.size), moved = moved_.topLeftCorner(n_, b.size);
     gatherColumns(b.offset, columns);
@@ -229,7 +231,8 @@ void BlockGaussian::setMixture(const BlockLayout& layout, const std::vector<cons
         const double weight = weights(static_cast<Eigen::Index>(i));
         if (weight == 0) continue;
         modes[i]->deviationFrom(reference, deviation);
-        for (int j = 0; j < n_; ++j) P_.col(j).segment(j, n_ - j) += weight * modes[i]->P_.col(j).segment(j, n_ - j);
+        for (int j = 0; j < n_; ++j)
+            P_.col(j).segment(j, n_ - j) += weight * modes[i]->P_.col(j).segment(j, n_ - j);
         if (invariant) {
             deviation = -deviation;  // from x_i to x_r
             addTransport(layout, *modes[i], deviation, weight);

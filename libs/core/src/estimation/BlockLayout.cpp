@@ -7,10 +7,14 @@ namespace slamot {
 
 int turningVectors(BlockKind kind) {
     switch (kind) {
-        case BlockKind::robot: return 1;
-        case BlockKind::target: return 3;
-        case BlockKind::landmark: return 1;
-        case BlockKind::extra: return 0;
+        case BlockKind::robot:
+            return 1;
+        case BlockKind::target:
+            return 3;
+        case BlockKind::landmark:
+            return 1;
+        case BlockKind::extra:
+            return 0;
     }
     return 0;
 }

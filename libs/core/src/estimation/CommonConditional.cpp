@@ -17,8 +17,8 @@ std::vector<int> coordinates(const BlockLayout& layout, bool put_away) {
 
 Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P) {
     // Units differ between components: the eigenvalues to be judged are those of the correlations.
-    const Eigen::VectorXd scale =
-        P.diagonal().unaryExpr([](double variance) { return variance > 0 ? 1.0 / std::sqrt(variance) : 0.0; });
+    const Eigen::VectorXd scale = P.diagonal().unaryExpr(
+        [](double variance) { return variance > 0 ? 1.0 / std::sqrt(variance) : 0.0; });
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * P * scale.asDiagonal());
     const double floor = 1e-14 * static_cast<double>(P.rows()) * solver.eigenvalues().maxCoeff();
     const Eigen::VectorXd inverse =

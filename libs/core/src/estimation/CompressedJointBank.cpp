@@ -7,8 +7,9 @@
 
 namespace slamot {
 
-CompressedJointBank::CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
-                                         int modes, const ActiveSetParameters& policy)
+CompressedJointBank::CompressedJointBank(const Vector3& robot, const Matrix3& covariance,
+                                         Consistency consistency, int modes,
+                                         const ActiveSetParameters& policy)
     : consistency_(consistency),
       modes_(static_cast<std::size_t>(modes), Mode(*this)),
       map_(consistency == Consistency::invariant),
@@ -82,8 +83,8 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
     if (away.empty()) return;
     ++activations_;
 
-    // c = c0 + B_c^t beta + e_c. P_cr0, the covariance of e_c with what stays, becomes base rows gamma: they have
-    // no covariance but the identity with c, and none of their own.
+    // c = c0 + B_c^t beta + e_c. P_cr0, the covariance of e_c with what stays, becomes base rows gamma: they
+    // have no covariance but the identity with c, and none of their own.
     const std::vector<int> beta = baseCoordinates();
     const PassiveMap::Taken taken = map_.take(away);
     const int columns = static_cast<int>(taken.mean.size()), before = layout_.dimension();
@@ -94,15 +95,15 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
         Eigen::MatrixXd P_beta(static_cast<Eigen::Index>(beta.size()), before);
         for (std::size_t k = 0; k < beta.size(); ++k)
             for (int j = 0; j < before; ++j)
-                P_beta(static_cast<Eigen::Index>(k), j) = g.lower()(std::max(beta[k], j), std::min(beta[k], j));
+                P_beta(static_cast<Eigen::Index>(k), j) =
+                    g.lower()(std::max(beta[k], j), std::min(beta[k], j));
         const Eigen::MatrixXd P_c = taken.base.transpose() * P_beta;  // with [a | beta]
         const Eigen::VectorXd mean = taken.mean + taken.base.transpose() * Eigen::VectorXd(g.mean()(beta));
         g.append(columns);
         g.mean().segment(c, columns) = mean;
         g.lower().block(c, 0, columns, before) = P_c;
         for (int k = 0; k < columns; ++k) g.lower()(c + k, gamma + step * k) = 1.0;
-        g.lower().block(c, c, columns, columns) =
-            taken.covariance + P_c(Eigen::all, beta) * taken.base;
+        g.lower().block(c, c, columns, columns) = taken.covariance + P_c(Eigen::all, beta) * taken.base;
     }
     for (const BlockId id : away) layout_.append(id, BlockKind::landmark, 2);
 }
@@ -120,64 +121,62 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
     const Eigen::MatrixXd& P = matched.covariance;
 
     // (3) What is put away leaves a; the kept rest gives the new base.
+    PassiveMap::Commit commit;
     BlockLayout kept_layout;
     std::vector<int> kept, away;
     for (const BlockPlace& block : layout_.places()) {
         if (std::find(base_.begin(), base_.end(), block.id) != base_.end()) continue;
-        if (!block.put_away) kept_layout.append(block.id, block.kind, block.size);
+        if (block.put_away)
+            commit.landmarks.push_back(block.id);
+        else
+            kept_layout.append(block.id, block.kind, block.size);
         for (int k = 0; k < block.size; ++k) (block.put_away ? away : kept).push_back(block.offset + k);
     }
     const std::vector<int> beta = baseCoordinates();
-    PassiveMap::Commit commit;
     commit.Phi = P(kept, beta);
     commit.Psi = P(beta, beta);
     commit.eta = matched.mean(beta);
     commit.kept_std = Eigen::VectorXd(P.diagonal()(kept)).cwiseMax(0).cwiseSqrt();
-    for (const BlockPlace& block : layout_.places())
-        if (block.put_away) commit.landmarks.push_back(block.id);
     commit.mean = matched.mean(away);
     commit.Phi_landmarks = P(away, beta);
     commit.kept_covariance = P(kept, away);
     commit.own_covariance = P(away, away);
     map_.commit(commit);
 
-    const bool several = modes_.size() > 1;
-    const Eigen::MatrixXd P_aa = P(kept, kept), inverse = several ? pseudoInverse(P_aa) : Eigen::MatrixXd();
-    const int n_a = static_cast<int>(kept.size()), q = map_.baseDimension(), step = q / std::max(n_a, 1);
-    const std::vector<int> first = [&] {  // beta's coordinates that stand for a itself, not for its turned copy
-        std::vector<int> out;
-        for (int k = 0; k < n_a; ++k) out.push_back(n_a + step * k);
-        return out;
-    }();
     layout_ = kept_layout;
-    base_.clear();
-    layout_.append(next_id_, BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
-    base_.push_back(next_id_++);
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-        BlockGaussian& g = modes_[i].gaussian;
-        const Eigen::MatrixXd whole = g.lower().selfadjointView<Eigen::Lower>();
-        const Eigen::MatrixXd own = whole(kept, kept);
-        const Eigen::VectorXd mean = g.mean()(kept);
-        Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(n_a + q, n_a + q);
-        cross.topLeftCorner(n_a, n_a) = own;
-        Eigen::VectorXd x = Eigen::VectorXd::Zero(n_a + q);
-        x.head(n_a) = mean;
-        if (several) {
-            const Eigen::MatrixXd gain = inverse * own;
-            const Eigen::VectorXd deviation = Eigen::VectorXd(matched.deviation.col(static_cast<Eigen::Index>(i)))(kept);
-            for (int k = 0; k < n_a; ++k) cross.row(first[static_cast<std::size_t>(k)]).head(n_a) = gain.row(k);
-            cross(first, first) = gain * inverse - inverse;
-            x(first) = inverse * deviation;
-        } else {
-            for (int k = 0; k < n_a; ++k) cross(first[static_cast<std::size_t>(k)], k) = 1.0;
-        }
-        g.set(x, cross);
-        if (!several || consistency_ == Consistency::classic) continue;
-        // (4) Back to the mode's own mean.
-        Eigen::VectorXd moved = x;
-        moved.head(n_a) = Eigen::VectorXd(matched.deviation.col(static_cast<Eigen::Index>(i)))(kept);
-        g.transport(layout_, moved);
+    base_.assign(1, next_id_++);
+    const int q = map_.baseDimension();
+    layout_.append(base_.front(), BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
+    const Eigen::MatrixXd inverse = modes_.size() > 1 ? pseudoInverse(P(kept, kept)) : Eigen::MatrixXd();
+    for (std::size_t i = 0; i < modes_.size(); ++i)
+        restart(modes_[i].gaussian, kept, inverse, matched.deviation.col(static_cast<Eigen::Index>(i)));
+}
+
+void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& kept,
+                                  const Eigen::MatrixXd& inverse, const Eigen::VectorXd& deviation) const {
+    const int n_a = static_cast<int>(kept.size()), n = layout_.dimension(), step = (n - n_a) / n_a;
+    std::vector<int> proper;  // base coordinates that stand for a itself, not for its turned copy
+    for (int k = 0; k < n_a; ++k) proper.push_back(n_a + step * k);
+
+    const Eigen::MatrixXd own = Eigen::MatrixXd(mode.lower().selfadjointView<Eigen::Lower>())(kept, kept);
+    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+    P.topLeftCorner(n_a, n_a) = own;
+    x.head(n_a) = mode.mean()(kept);
+    const bool several = inverse.size() > 0;
+    if (several) {
+        const Eigen::MatrixXd gain = inverse * own;
+        P(proper, Eigen::seqN(0, n_a)) = gain;
+        P(proper, proper) = gain * inverse - inverse;
+        x(proper) = inverse * deviation(kept);
+    } else {
+        for (int k = 0; k < n_a; ++k) P(proper[static_cast<std::size_t>(k)], k) = 1.0;
     }
+    mode.set(x, P);
+    if (!several || consistency_ == Consistency::classic) return;
+    // (4) Back to the mode's own mean.
+    x.head(n_a) = deviation(kept);
+    mode.transport(layout_, x);
 }
 
 void CompressedJointBank::attend(const Attention& attention, const ModeWeights& weights) {
@@ -192,9 +191,10 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
     for (const BlockPlace& block : layout_.places()) {
         if (block.kind != BlockKind::landmark) continue;
         ++active_landmarks;
-        const bool measured =
-            std::find(attention.measured.begin(), attention.measured.end(), block.id) != attention.measured.end();
-        if (!measured && !policy_.toKeep(mode.gaussian.mean().segment<2>(block.offset))) leaving_.push_back(block.id);
+        const bool measured = std::find(attention.measured.begin(), attention.measured.end(), block.id) !=
+                              attention.measured.end();
+        if (!measured && !policy_.toKeep(mode.gaussian.mean().segment<2>(block.offset)))
+            leaving_.push_back(block.id);
     }
     if (policy_.worthCommit(activeDimension(), active_landmarks, static_cast<int>(leaving_.size()),
                             map_.baseDimension()))
@@ -209,7 +209,8 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
         if (map_.size() > 0) {
             const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
             map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
-                if (policy_.toActivate(position) && std::find(coming_.begin(), coming_.end(), id) == coming_.end())
+                if (policy_.toActivate(position) &&
+                    std::find(coming_.begin(), coming_.end(), id) == coming_.end())
                     coming_.push_back(id);
             });
         }

@@ -15,17 +15,19 @@ void gemm(CBLAS_TRANSPOSE transpose, const MatrixIn& A, const MatrixIn& B, Matri
     useOneThread();
     if (B.rows() == 0) C.setZero();
     if (C.size() == 0 || B.rows() == 0) return;
-    cblas_dgemm(CblasColMajor, transpose, CblasNoTrans, static_cast<int>(C.rows()), static_cast<int>(C.cols()),
-                static_cast<int>(B.rows()), 1.0, A.data(), static_cast<int>(A.outerStride()), B.data(),
-                static_cast<int>(B.outerStride()), 0.0, C.data(), static_cast<int>(C.outerStride()));
+    cblas_dgemm(CblasColMajor, transpose, CblasNoTrans, static_cast<int>(C.rows()),
+                static_cast<int>(C.cols()), static_cast<int>(B.rows()), 1.0, A.data(),
+                static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()), 0.0, C.data(),
+                static_cast<int>(C.outerStride()));
 }
 
 }  // namespace
 
 void downdateLower(MatrixOut A, const MatrixIn& W) {
     useOneThread();
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(A.rows()), static_cast<int>(W.cols()),
-                -1.0, W.data(), static_cast<int>(W.outerStride()), 1.0, A.data(), static_cast<int>(A.outerStride()));
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, static_cast<int>(A.rows()),
+                static_cast<int>(W.cols()), -1.0, W.data(), static_cast<int>(W.outerStride()), 1.0, A.data(),
+                static_cast<int>(A.outerStride()));
 }
 
 void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {

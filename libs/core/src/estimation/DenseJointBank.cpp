@@ -6,7 +6,8 @@
 
 namespace slamot {
 
-DenseJointBank::DenseJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency, int modes)
+DenseJointBank::DenseJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
+                               int modes)
     : consistency_(consistency), modes_(static_cast<std::size_t>(modes), Mode(*this)) {
     augment(BlockKind::robot, NewBlock{robot, {}, covariance});
 }

@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/FarGroup.h"
 
 #include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 #include "slamot/core/estimation/DenseAlgebra.h"
@@ -19,8 +18,8 @@ Eigen::MatrixXd onPairs(const Eigen::MatrixXcd& T) {
     return out;
 }
 
-/// Makes every second row exactly the turned one before it: where little is left of a direction, scaling it up brings
-/// rounding forward.
+/// Makes every second row exactly the turned one before it: where little is left of a direction, scaling it
+/// up brings rounding forward.
 void pairUp(Eigen::MatrixXd& V) {
     for (Eigen::Index k = 0; k + 1 < V.rows(); k += 2) V.row(k + 1) = turnedRows(V.row(k));
 }
@@ -68,8 +67,8 @@ double FarGroup::cost(int s, int t) const {
 }
 
 void FarGroup::orthonormalise() {
-    // V V^t as a complex matrix, each pair of rows being y and i y: T = Lambda^-1/2 E^H. Where V has nothing left the
-    // direction is dropped; elsewhere W V is unchanged however small it is.
+    // V V^t as a complex matrix, each pair of rows being y and i y: T = Lambda^-1/2 E^H. Where V has nothing
+    // left the direction is dropped; elsewhere W V is unchanged however small it is.
     if (rank() == 0) return;
     const Eigen::Index pairs = rank() / 2;
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rank(), rank());

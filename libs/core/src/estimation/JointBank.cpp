@@ -8,7 +8,8 @@ namespace {
 constexpr int heading = 2;
 
 /// d = J dx on the 2-vectors of the stacked blocks that turn with the world, 0 elsewhere.
-Eigen::VectorXd turnShift(const JointBank& bank, const std::vector<BlockId>& blocks, const Eigen::VectorXd& dx) {
+Eigen::VectorXd turnShift(const JointBank& bank, const std::vector<BlockId>& blocks,
+                          const Eigen::VectorXd& dx) {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(dx.size());
     int offset = 0;
     for (const BlockId block : blocks) {
@@ -31,7 +32,8 @@ BlockId JointBank::augment(BlockKind kind, const NewBlock& block) {
     return augment(kind, std::vector<NewBlock>(static_cast<std::size_t>(modeCount()), block));
 }
 
-CombinedView::CombinedView(const JointBank& bank, const ModeWeights& weights) : bank_(bank), weights_(weights) {
+CombinedView::CombinedView(const JointBank& bank, const ModeWeights& weights)
+    : bank_(bank), weights_(weights) {
     weights_.maxCoeff(&reference_);
 }
 

@@ -10,7 +10,8 @@ std::unique_ptr<JointBank> makeJointBank(const JointEngine& engine, const PoseGa
     const Vector3 mean = robot.mean.vector();
     if (engine.kind == JointEngine::Kind::dense)
         return std::make_unique<DenseJointBank>(mean, robot.covariance, consistency, modes);
-    return std::make_unique<CompressedJointBank>(mean, robot.covariance, consistency, modes, engine.active_set);
+    return std::make_unique<CompressedJointBank>(mean, robot.covariance, consistency, modes,
+                                                 engine.active_set);
 }
 
 }  // namespace slamot

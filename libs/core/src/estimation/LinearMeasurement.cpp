@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/LinearMeasurement.h"
 
 #include <Eigen/Cholesky>
-
 #include <cmath>
 
 namespace slamot {

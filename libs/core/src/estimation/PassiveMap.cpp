@@ -125,7 +125,8 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
         taken.mean.segment<2>(2 * i) = mean(id);
         taken.base.middleCols<2>(2 * i) = base(id);
         for (int j = 0; j < columns / 2; ++j)
-            taken.covariance.block<2, 2>(2 * i, 2 * j) = covariance(id, landmarks[static_cast<std::size_t>(j)]);
+            taken.covariance.block<2, 2>(2 * i, 2 * j) =
+                covariance(id, landmarks[static_cast<std::size_t>(j)]);
     }
     const Eigen::VectorXd std = taken.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     addRows(addresses, std);
@@ -135,7 +136,8 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
     q_ += taken.new_rows;
 
     std::vector<std::vector<int>> gone(tiles_.size());
-    for (const Address& address : addresses) gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
+    for (const Address& address : addresses)
+        gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
     for (int t = 0; t < tileCount(); ++t) drop(t, gone[static_cast<std::size_t>(t)]);
     index();
     return taken;
@@ -205,9 +207,10 @@ void PassiveMap::commit(const Commit& commit) {
     index();
 }
 
-void PassiveMap::append(const Commit& commit, const Eigen::MatrixXd& near_rows, const Eigen::MatrixXd& far_rows,
-                        const std::vector<int>& first_column) {
-    std::vector<std::vector<int>> late(tiles_.size());  // landmarks of the commit, by the tile they are in by now
+void PassiveMap::append(const Commit& commit, const Eigen::MatrixXd& near_rows,
+                        const Eigen::MatrixXd& far_rows, const std::vector<int>& first_column) {
+    std::vector<std::vector<int>> late(
+        tiles_.size());  // landmarks of the commit, by the tile they are in by now
     for (int j = 0; j < static_cast<int>(commit.landmarks.size()); ++j) {
         const int t = tileFor(commit.mean.segment<2>(2 * j));
         late.resize(tiles_.size());
@@ -220,7 +223,8 @@ void PassiveMap::append(const Commit& commit, const Eigen::MatrixXd& near_rows, 
             const std::vector<int> others = coordinatesOf(late[static_cast<std::size_t>(s)]);
             const int after = static_cast<int>(others.size()), before = tile(s).width() - after;
             Eigen::MatrixXd P(2, before + after);
-            if (before > 0) P.leftCols(before) = rows.middleCols(first_column[static_cast<std::size_t>(s)], before);
+            if (before > 0)
+                P.leftCols(before) = rows.middleCols(first_column[static_cast<std::size_t>(s)], before);
             P.rightCols(after) = commit.own_covariance.middleRows<2>(2 * j)(Eigen::all, others);
             addBlock(s, 0, t, width, P.transpose());
             if (s == t) addBlock(t, width, t, 0, P);

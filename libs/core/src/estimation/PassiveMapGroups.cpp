@@ -8,13 +8,15 @@
 namespace slamot {
 namespace {
 
-constexpr int tile_landmarks = 50;   // at most, in one tile
-constexpr double tile_radius = 1.0;  // reaches of the sensors: how far from a tile's centre a new member may lie
-/// Tiles whose centre lies farther away are far; grouped anew after half the way that could bring a landmark of one
-/// within reach.
+constexpr int tile_landmarks = 50;  // at most, in one tile
+constexpr double tile_radius =
+    1.0;  // reaches of the sensors: how far from a tile's centre a new member may lie
+/// Tiles whose centre lies farther away are far; grouped anew after half the way that could bring a landmark
+/// of one within reach.
 constexpr double far_distance = 5.0;
 constexpr double regroup_after = 2.0;
-/// Directions that carry less than this part of a standard deviation, summed over all far landmarks, are rounding.
+/// Directions that carry less than this part of a standard deviation, summed over all far landmarks, are
+/// rounding.
 constexpr double tolerance = 1e-11;
 /// What the end of a group leaves out, in parts of a variance.
 constexpr double negligible = 1e-11;
@@ -115,8 +117,8 @@ void PassiveMap::regroup(const std::vector<char>& far) {
         M.middleCols(joining, tile(t).width()) = tile(t).X;
         joining += tile(t).width();
     }
-    const Eigen::MatrixXd K = turningBasis(inverseOrZero(row_std_).asDiagonal() * M, tolerance * landmarkStd(),
-                                           static_cast<int>(M.cols()));
+    const Eigen::MatrixXd K = turningBasis(inverseOrZero(row_std_).asDiagonal() * M,
+                                           tolerance * landmarkStd(), static_cast<int>(M.cols()));
     joining = next.rank();
     for (int t = 0; t < tileCount(); ++t) {
         if (!used(t) || !tile(t).far) continue;

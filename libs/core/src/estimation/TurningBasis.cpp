@@ -17,7 +17,8 @@ Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance, int largest
     int rank = 0;
     while (true) {
         Eigen::Index longest = 0;
-        if (rows.rows() == 0 || rows.rowwise().squaredNorm().maxCoeff(&longest) <= tolerance * tolerance) break;
+        if (rows.rows() == 0 || rows.rowwise().squaredNorm().maxCoeff(&longest) <= tolerance * tolerance)
+            break;
         if (rank + 2 > largest) return Eigen::MatrixXd(0, rows.cols());
         const auto found = basis.topRows(rank);
         Eigen::MatrixXd pair(2, rows.cols());

@@ -12,12 +12,12 @@ namespace slamot {
 struct ActiveSetParameters {
     /// [m]; not given: the sensors' own limits, or the longest range met where a sensor has none.
     std::optional<double> range;
-    double activate_margin = 0.4;   ///< landmarks up to (1 + this) ranges away are activated
-    double keep_margin = 0.5;       ///< active ones are kept up to (1 + this) ranges away
-    double view_margin = pi / 3;    ///< [rad] beyond the edge of the field of view, twice that for keeping
-    double base_growth = 3;         ///< commit when dim(beta) exceeds this times the active dimension
-    double retirable_part = 0.25;   ///< commit when this part of the active landmarks is out of reach
-    int keep_at_least = 100;        ///< active landmarks; fewer are not worth a commit
+    double activate_margin = 0.4;  ///< landmarks up to (1 + this) ranges away are activated
+    double keep_margin = 0.5;      ///< active ones are kept up to (1 + this) ranges away
+    double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
+    double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
+    double retirable_part = 0.25;  ///< commit when this part of the active landmarks is out of reach
+    int keep_at_least = 100;       ///< active landmarks; fewer are not worth a commit
 };
 
 /// The table `[name]`.
@@ -37,7 +37,9 @@ class ActiveSetPolicy {
     bool due() const;
     void refreshed();
 
-    bool toActivate(const Vector2& landmark) const { return within(landmark, parameters_.activate_margin, 1); }
+    bool toActivate(const Vector2& landmark) const {
+        return within(landmark, parameters_.activate_margin, 1);
+    }
     bool toKeep(const Vector2& landmark) const { return within(landmark, parameters_.keep_margin, 2); }
     bool worthCommit(int active_dimension, int active_landmarks, int retirable, int base_dimension) const;
 

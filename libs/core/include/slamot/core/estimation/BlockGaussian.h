@@ -1,6 +1,6 @@
 #pragma once
-// Mean and covariance over the coordinates of a BlockLayout: the arithmetic of joint filters, for engines to build
-// on. The robot is the first block.
+// Mean and covariance over the coordinates of a BlockLayout: the arithmetic of joint filters, for engines to
+// build on. The robot is the first block.
 #include <vector>
 
 #include "slamot/core/estimation/BlockLayout.h"
@@ -8,9 +8,9 @@
 
 namespace slamot {
 
-/// Only the lower triangle of the covariance is kept and worked on: it is symmetric by construction. Storage grows
-/// by doubling, so that steps do not allocate once sizes have settled. The covariance need not be definite, as long
-/// as every S is: an engine may have formal coordinates among its blocks.
+/// Only the lower triangle of the covariance is kept and worked on: it is symmetric by construction. Storage
+/// grows by doubling, so that steps do not allocate once sizes have settled. The covariance need not be
+/// definite, as long as every S is: an engine may have formal coordinates among its blocks.
 class BlockGaussian {
   public:
     int dimension() const { return n_; }
@@ -24,7 +24,8 @@ class BlockGaussian {
     void gatherColumns(int first, Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> out) const;
 
     /// Takes over mean and covariance (its lower triangle).
-    void set(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& covariance);
+    void set(const Eigen::Ref<const Eigen::VectorXd>& mean,
+             const Eigen::Ref<const Eigen::MatrixXd>& covariance);
     /// `count` more coordinates at the end, with zero mean and covariance.
     void append(int count);
     void remove(int offset, int count);

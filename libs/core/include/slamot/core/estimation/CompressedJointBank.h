@@ -1,15 +1,15 @@
 #pragma once
 // The bank whose steps cost what is near the sensors, whatever the map (doc/maths/compressed_engine.md).
 //
-// Landmarks out of reach are put away in a PassiveMap: b = b0 + B^t beta + e. The modes are Gaussians over the active
-// state a = [robot | targets | landmarks within reach] and beta, with formal covariance
+// Landmarks out of reach are put away in a PassiveMap: b = b0 + B^t beta + e. The modes are Gaussians over
+// the active state a = [robot | targets | landmarks within reach] and beta, with formal covariance
 //
 //   [ P_aa  Phi ]        so that  P_ab = Phi B,  P_bb = P_bb0 + B^t Psi B,  b = b0 + B^t eta.
 //   [ Phi^t Psi ]
 //
-// Prediction, update, transport, mixing and new landmarks act on [a | beta] as on any joint state: beta's rows are
-// scalars in the classic core and 2-vectors that turn with the world in the invariant one. Activation and commit
-// move landmarks between the two.
+// Prediction, update, transport, mixing and new landmarks act on [a | beta] as on any joint state: beta's
+// rows are scalars in the classic core and 2-vectors that turn with the world in the invariant one.
+// Activation and commit move landmarks between the two.
 #include <vector>
 
 #include "slamot/core/estimation/ActiveSetPolicy.h"
@@ -21,8 +21,8 @@ namespace slamot {
 
 class CompressedJointBank : public JointBank {
   public:
-    CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency, int modes = 1,
-                        const ActiveSetParameters& policy = {});
+    CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
+                        int modes = 1, const ActiveSetParameters& policy = {});
     CompressedJointBank(const CompressedJointBank& other);
 
     using JointBank::augment;
@@ -71,10 +71,14 @@ class CompressedJointBank : public JointBank {
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
+    /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `deviation`
+    /// is of its mean from the merged one; no inverse of the merged P_aa: the only mode.
+    void restart(BlockGaussian& mode, const std::vector<int>& kept, const Eigen::MatrixXd& inverse,
+                 const Eigen::VectorXd& deviation) const;
 
     Consistency consistency_;
-    BlockLayout layout_;              ///< of [a | beta]
-    std::vector<BlockId> base_;       ///< beta's blocks, in the order of the base's rows
+    BlockLayout layout_;         ///< of [a | beta]
+    std::vector<BlockId> base_;  ///< beta's blocks, in the order of the base's rows
     BlockId next_id_ = 0;
     std::vector<Mode> modes_;
     std::vector<BlockGaussian> mixed_;  ///< where mixing works

@@ -1,7 +1,7 @@
 #pragma once
-// The dense kernels that dominate joint filters, through the system's BLAS, which picks the processor's widest
-// instructions at run time. One thread, so that results do not depend on the machine's load. The only place where
-// BLAS is called.
+// The dense kernels that dominate joint filters, through the system's BLAS, which picks the processor's
+// widest instructions at run time. One thread, so that results do not depend on the machine's load. The only
+// place where BLAS is called.
 #include <Eigen/Core>
 
 namespace slamot {

@@ -7,8 +7,8 @@
 
 namespace slamot {
 
-/// Mixing needs a second covariance for each mode. Nothing is ever put away, so commits of one mode do nothing;
-/// with several modes they are the moment matching that the compressed engine makes, for comparison.
+/// Mixing needs a second covariance for each mode. Nothing is ever put away, so commits of one mode do
+/// nothing; with several modes they are the moment matching that the compressed engine makes, for comparison.
 class DenseJointBank : public JointBank {
   public:
     DenseJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency, int modes = 1);

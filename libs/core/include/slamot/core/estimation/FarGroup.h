@@ -1,14 +1,14 @@
 #pragma once
-// Far landmarks as one: what the base says about all of them takes few directions (doc/maths/compressed_engine.md).
+// Far landmarks as one: what the base says about all of them takes few directions
+// (doc/maths/compressed_engine.md).
 #include <Eigen/Core>
-
 #include <cstdint>
 #include <vector>
 
 namespace slamot {
 
-/// The far tiles of a PassiveMap: B_t = W V_t for a far tile t, V having orthonormal rows in pairs, the second turned
-/// by a quarter turn. What commits have added to the covariances waits here:
+/// The far tiles of a PassiveMap: B_t = W V_t for a far tile t, V having orthonormal rows in pairs, the
+/// second turned by a quarter turn. What commits have added to the covariances waits here:
 ///
 ///   P_st += V_s^t zeta V_t for far s and t,   P_st += C_s V_t for near s.
 struct FarGroup {
@@ -33,10 +33,11 @@ struct FarGroup {
     /// Landmark coordinates of a tile that the group knows.
     int width(int tile) const;
 
-    /// What waits for P of coordinates [first, first + count) of tile s with all of far tiles t is left() V_t.
+    /// What waits for P of coordinates [first, first + count) of tile s with all of far tiles t is left()
+    /// V_t.
     Eigen::MatrixXd left(int s, int first, int count) const;
-    /// The end of the group: nothing will be added to it. What it has to say about two far landmarks goes with the
-    /// square of what is known along V, so most of zeta's eigenvalues are below `negligible`.
+    /// The end of the group: nothing will be added to it. What it has to say about two far landmarks goes
+    /// with the square of what is known along V, so most of zeta's eigenvalues are below `negligible`.
     void end(double negligible);
     /// For a group that has ended: what waits for P of tile s with tile t; nothing for two near ones.
     Eigen::MatrixXd waiting(int s, int t) const;

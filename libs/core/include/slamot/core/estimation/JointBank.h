@@ -1,7 +1,7 @@
 #pragma once
-// The joint state [robot | targets | landmarks] as a bank of Gaussians, the modes: one for an EKF, several for an
-// IMM. All modes have the same blocks; means and covariances are each mode's own; the modes' weights are their
-// owner's. Filters say what happens to blocks; engines decide how means and covariances are kept.
+// The joint state [robot | targets | landmarks] as a bank of Gaussians, the modes: one for an EKF, several
+// for an IMM. All modes have the same blocks; means and covariances are each mode's own; the modes' weights
+// are their owner's. Filters say what happens to blocks; engines decide how means and covariances are kept.
 #include <memory>
 #include <vector>
 
@@ -26,12 +26,13 @@ class JointMode : public JointView {
   public:
     /// x_b <- mean; P_b,: <- F P_b,: + sum_c F_c P_c,:; P_bb += Q. Paper 1, eq. 27-35.
     virtual void propagate(BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,
-                           const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                           const Eigen::Ref<const Eigen::MatrixXd>& F,
+                           const Eigen::Ref<const Eigen::MatrixXd>& Q,
                            const std::vector<Coupling>& couplings = {}) = 0;
 
-    /// Conditions on a batch, linearised at the present mean. Paper 1, eq. 46-47; with Consistency::invariant the
-    /// covariance is then transported from the old mean to the new one: P <- D P D^t with
-    /// D = I + [J (p+ - p-)] e_theta^t over every 2-vector p of robot position, targets and landmarks. Throws
+    /// Conditions on a batch, linearised at the present mean. Paper 1, eq. 46-47; with Consistency::invariant
+    /// the covariance is then transported from the old mean to the new one: P <- D P D^t with D = I + [J (p+
+    /// - p-)] e_theta^t over every 2-vector p of robot position, targets and landmarks. Throws
     /// std::domain_error when S is not positive definite, and has changed nothing then.
     virtual BatchLikelihood update(const std::vector<LinearMeasurement>& batch) = 0;
 };
@@ -68,18 +69,18 @@ class JointBank {
     /// Marginalises a block out.
     virtual void remove(BlockId block) = 0;
 
-    /// Every mode j becomes the moment-matched mixture of all modes i with weights mu(i, j), columns summing to 1.
-    /// The bank has as many modes afterwards as mu has columns: a column of one weight 1 is a copy of that mode.
-    /// In the invariant core each mode's covariance is transported to the mean of the mode with the largest weight
-    /// in the mixture, matched there, and the result transported to the mixture's mean.
+    /// Every mode j becomes the moment-matched mixture of all modes i with weights mu(i, j), columns summing
+    /// to 1. The bank has as many modes afterwards as mu has columns: a column of one weight 1 is a copy of
+    /// that mode. In the invariant core each mode's covariance is transported to the mean of the mode with
+    /// the largest weight in the mixture, matched there, and the result transported to the mixture's mean.
     virtual void mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) = 0;
 
-    /// Called before detections are linearised. An engine that keeps part of the state away brings what can be
-    /// seen from here within reach and may put the rest away (a commit, which the weights are for).
+    /// Called before detections are linearised. An engine that keeps part of the state away brings what can
+    /// be seen from here within reach and may put the rest away (a commit, which the weights are for).
     virtual void attend(const Attention& attention, const ModeWeights& weights) = 0;
 
-    /// The part of the state that is put away. A block given to `activate` is within reach again; it changes no
-    /// value of any mode.
+    /// The part of the state that is put away. A block given to `activate` is within reach again; it changes
+    /// no value of any mode.
     virtual void activate(const std::vector<BlockId>& landmarks) = 0;
     /// Puts landmarks away. With one mode this changes no value. With several, all that is put away (now or
     /// before) keeps the bank's moment-matched distribution given the rest, the same for all modes; means and

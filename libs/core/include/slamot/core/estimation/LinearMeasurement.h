@@ -26,8 +26,8 @@ struct LinearMeasurement {
     void add(BlockId block, const MeasurementJacobian& H) { terms[term_count++] = {block, H}; }
 };
 
-/// The innovations nu of a batch under their covariance S = L L^t, rows in the order of the batch. A view: it holds
-/// until the mode that gave it is updated or mixed again.
+/// The innovations nu of a batch under their covariance S = L L^t, rows in the order of the batch. A view: it
+/// holds until the mode that gave it is updated or mixed again.
 class BatchLikelihood {
   public:
     using Factor = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
@@ -41,8 +41,8 @@ class BatchLikelihood {
     /// w = L^-1 nu.
     const Whitened& whitened() const { return w_; }
 
-    /// log density of rows [first, first + count) given all rows before them; 0 for no rows. With the targets'
-    /// measurements last, this is their likelihood conditional on the landmarks'.
+    /// log density of rows [first, first + count) given all rows before them; 0 for no rows. With the
+    /// targets' measurements last, this is their likelihood conditional on the landmarks'.
     double logConditional(int first, int count) const;
     /// log density of these rows alone.
     double logMarginal(int first, int count) const;

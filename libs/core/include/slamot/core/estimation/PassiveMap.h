@@ -1,13 +1,15 @@
 #pragma once
-// The landmarks that a compressed joint state has put away: b = b0 + B^t beta + e, where beta is the base, which the
-// modes keep with the active state, and e, with covariance P_bb0, is independent of everything else.
+// The landmarks that a compressed joint state has put away: b = b0 + B^t beta + e, where beta is the base,
+// which the modes keep with the active state, and e, with covariance P_bb0, is independent of everything
+// else.
 //
-// How P_bb0 and B are kept (doc/maths/compressed_engine.md). Landmarks stand in tiles of neighbours; P_bb0 is one
-// block for each pair of tiles. Tiles near the robot have their columns X_t of B; all the others are one FarGroup.
-// A commit, P_bb0 += B^t Psi B, goes into the blocks of near tiles at once and waits in the group for the others.
-// When the robot has moved on, the tiles are grouped anew, and what waits in the old group is added to the blocks in
-// slices by `step`; who asks for a covariance before gets it with what is waiting. The group leaves out what is below
-// rounding: directions along which less than `tolerance` of a standard deviation is known.
+// How P_bb0 and B are kept (doc/maths/compressed_engine.md). Landmarks stand in tiles of neighbours; P_bb0 is
+// one block for each pair of tiles. Tiles near the robot have their columns X_t of B; all the others are one
+// FarGroup. A commit, P_bb0 += B^t Psi B, goes into the blocks of near tiles at once and waits in the group
+// for the others. When the robot has moved on, the tiles are grouped anew, and what waits in the old group is
+// added to the blocks in slices by `step`; who asks for a covariance before gets it with what is waiting. The
+// group leaves out what is below rounding: directions along which less than `tolerance` of a standard
+// deviation is known.
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -56,8 +58,8 @@ class PassiveMap {
         Eigen::MatrixXd covariance;  ///< P_cc0
         int new_rows = 0;            ///< by which the base has grown, at its end
     };
-    /// Their covariances P_cr0 with the landmarks that stay become rows at the end of the base, in their order;
-    /// where rows come in pairs, each is followed by its turned one.
+    /// Their covariances P_cr0 with the landmarks that stay become rows at the end of the base, in their
+    /// order; where rows come in pairs, each is followed by its turned one.
     Taken take(const std::vector<BlockId>& landmarks);
 
     /// Forgets a landmark.
@@ -78,8 +80,8 @@ class PassiveMap {
     /// b0 += B^t eta, P_bb0 += B^t Psi B, then B has the covariances of the kept coordinates as its rows.
     void commit(const Commit& commit);
 
-    /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when the robot
-    /// has moved far enough; says whether it did.
+    /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
+    /// the robot has moved far enough; says whether it did.
     bool follow(const Vector2& robot, double reach);
 
     /// One step's part of adding to blocks what waits in old groups.
@@ -92,6 +94,7 @@ class PassiveMap {
         std::int64_t regroupings = 0;
     };
     Census census() const;
+    std::int64_t regroupings() const { return regroupings_; }
 
   private:
     struct Tile {
@@ -103,8 +106,8 @@ class PassiveMap {
         int width() const { return 2 * static_cast<int>(landmarks.size()); }
         Vector2 centre() const;
     };
-    struct Pair {           ///< of tiles s <= t
-        Eigen::MatrixXd Z;  ///< P of their landmarks; what lies beyond its size is zero
+    struct Pair {               ///< of tiles s <= t
+        Eigen::MatrixXd Z;      ///< P of their landmarks; what lies beyond its size is zero
         std::int64_t done = 0;  ///< number of the first old group not yet in Z
     };
     struct Address {
