@@ -1,6 +1,5 @@
 // One world and its runs, in one thread.
 #include <fmt/format.h>
-#include <mrpt/core/exceptions.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,7 @@
 
 #include "Meters.h"
 #include "World.h"
+#include "slamot/core/plugin/ErrorText.h"
 #include "slamot/run/OutputFolder.h"
 #include "slamot/run/Run.h"
 #include "slamot/study/Runner.h"
@@ -17,14 +17,6 @@
 
 namespace slamot::study {
 namespace {
-
-/// MRPT's exceptions come with a call stack.
-std::string sentenceOf(const std::exception& error) {
-    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    std::string text = with_stack ? with_stack->originalWhat : error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
 
 /// The part of a list that stands for its place: what it is about, where it says so.
 std::string placeOf(const nlohmann::json& item, std::size_t index) {
