@@ -180,14 +180,39 @@ class Study(SlamotTest):
         run = self.mpi(3, "ranks.db")
         self.addCleanup(run.kill)
         self.waitForRows("ranks.db", run)
-        # The ranks are mpirun's children, in the order of their numbers.
-        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
-        ranks = [int(pid) for pid in children if "slamot_study_mp" in pathlib.Path(f"/proc/{pid}/comm").read_text()]
+        ranks = self.ranksOf(run)
         self.assertEqual(len(ranks), 3)
         os.kill(ranks[-1], signal.SIGKILL)
         run.communicate(timeout=TIMEOUT_SECONDS)
         self.assertNotEqual(run.returncode, 0)
         self.finishAndCompare("ranks.db")
+
+    def ranksOf(self, run):
+        # The ranks are mpirun's children, in the order of their numbers.
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        return [int(pid) for pid in children if "slamot_study_mp" in pathlib.Path(f"/proc/{pid}/comm").read_text()]
+
+    def test_a_stopped_rank_leaves_its_work_to_the_others(self):
+        self.files(steps=400)
+        run = self.mpi(3, "one.db")
+        self.addCleanup(run.kill)
+        self.waitForRows("one.db", run)
+        os.kill(self.ranksOf(run)[-1], signal.SIGTERM)
+        _, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertEqual(run.returncode, 0, stderr)
+        self.assertEqual(self.rows("one.db"), self.serial())
+
+    def test_all_ranks_stopped_is_no_success(self):
+        self.files(steps=400)
+        run = self.mpi(3, "all.db")
+        self.addCleanup(run.kill)
+        self.waitForRows("all.db", run)
+        for pid in self.ranksOf(run)[1:]:
+            os.kill(pid, signal.SIGTERM)
+        _, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertNotEqual(run.returncode, 0, stderr)
+        self.assertIn("the same command does the rest", stderr)
+        self.finishAndCompare("all.db")
 
     def test_mpi_mistakes_are_told_once(self):
         run = self.mpi(3, "ranks.db", "--replicates", "0")
