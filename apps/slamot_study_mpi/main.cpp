@@ -108,12 +108,7 @@ int firstRank(const mpi::communicator& world, const Options& options, const Plug
 
 void otherRank(const mpi::communicator& world, const Options& options, const PluginRegistry& registry) {
     world.barrier();
-    study::PlanRequest request;
-    request.short_form = options.session.short_form;
-    request.replicates = options.session.replicates;
-    request.work_folder = study::workFolderOf(options.session.store_file);
-    study::work(world, study::layOut(study::loadStudy(options.session.study_file), request, registry),
-                registry, stop_requested);
+    study::work(world, study::planOf(options.session, registry), registry, stop_requested);
 }
 
 }  // namespace

@@ -1,18 +1,15 @@
 #include "LogFiles.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glob.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
+#include "FileLock.h"
 #include "slamot/core/Version.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/Importer.h"
@@ -23,23 +20,6 @@ namespace slamot::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Held by one program at a time; the system lets go of it when the program ends, however it ends.
-class FileLock {
-  public:
-    explicit FileLock(const std::string& file)
-        : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-        int failed = descriptor_ < 0;
-        while (!failed && (failed = flock(descriptor_, LOCK_EX)) && errno == EINTR) failed = 0;
-        if (failed) throw LogError(fmt::format("{}: cannot be locked ({})", file, std::strerror(errno)));
-    }
-    ~FileLock() { close(descriptor_); }
-    FileLock(const FileLock&) = delete;
-    FileLock& operator=(const FileLock&) = delete;
-
-  private:
-    int descriptor_;
-};
 
 /// Where the datasets lie: SLAMOT_DATASETS or, for a study in a source tree, the folder beside the tree.
 fs::path datasetsFolder(const StudyFile& study) {

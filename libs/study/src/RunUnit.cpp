@@ -37,11 +37,7 @@ void flatten(const nlohmann::json& json, const std::string& name, std::map<std::
 Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
     Row row;
     row.key = run.key;
-    row.source = plan.sourceOf(world).name;
-    row.variant = plan.variantOf(run).name;
-    if (plan.kinds[world.kind].scenario) row.scenario_point = plan.study.scenario_grid[world.scenario_point];
-    row.config_point = plan.study.config_grid[run.config_point];
-    row.replicate = world.replicate;
+    setLabels(row, plan, world, run);
     row.world_seed = world.world_seed;
     row.estimator_seed = run.estimator_seed;
     row.build = plan.configs[run.config].build;
