@@ -9,12 +9,12 @@
 #include <cstring>
 #include <filesystem>
 
+#include "Digest.h"
 #include "FileLock.h"
-#include "slamot/core/Version.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/Importer.h"
 #include "slamot/rawlog/LogError.h"
-#include "slamot/rawlog/Sha256.h"
+#include "slamot/study/Build.h"
 
 namespace slamot::study {
 namespace {
@@ -52,14 +52,24 @@ const Importer& importerOf(const StudyFile& study, const Source& source) {
                                   near ? " (did you mean '" + *near + "'?)" : "", fmt::join(formats, ", ")));
 }
 
-/// The folder with the imported logs, made when it is not there.
+/// Of the files' names, sizes and times of change.
+std::string digestOfFiles(const fs::path& data) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(data, fs::directory_options::follow_directory_symlink))
+        if (entry.is_regular_file())
+            files.push_back(fmt::format("{} {} {}", entry.path().lexically_relative(data).string(), entry.file_size(),
+                                        entry.last_write_time().time_since_epoch().count()));
+    std::sort(files.begin(), files.end());
+    return digestOf(files);
+}
+
+/// The folder with the imported logs, made when it is not there: another one for each state of the dataset and
+/// for each build.
 fs::path imported(const Importer& importer, const fs::path& data, const Source& source,
                   const std::string& work_folder) {
     const std::string made_from =
-        fmt::format("{}\n{}\n{}", importer.format, fs::absolute(data).string(), version);
-    Sha256 sum;
-    sum.add(made_from.data(), made_from.size());
-    const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, sum.hex().substr(0, 12));
+        digestOf({importer.format, fs::absolute(data).string(), digestOfFiles(data), buildOf({})});
+    const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, made_from.substr(0, 12));
     std::error_code error;
     fs::create_directories(work_folder, error);
     if (error) throw LogError(fmt::format("{}: cannot be made ({})", work_folder, error.message()));
@@ -78,7 +88,7 @@ fs::path imported(const Importer& importer, const fs::path& data, const Source& 
 
 }  // namespace
 
-FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) {
+FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) try {
     const LogSourceFiles& wanted = *source.log;
     const Importer* importer = wanted.importer.empty() ? nullptr : &importerOf(study, source);
     fs::path folder = study.text.folder();
@@ -96,6 +106,9 @@ FoundLogs findLogs(const StudyFile& study, const Source& source, const std::stri
         return {{},
                 fmt::format("source {} is skipped: no {} in {}", source.name, wanted.files, folder.string())};
     return {files, {}};
+} catch (const fs::filesystem_error& error) {
+    throw LogError(fmt::format("source {}: {}: {}, expected files that can be read and a folder to write to",
+                               source.name, error.path1().string(), error.code().message()));
 }
 
 }  // namespace slamot::study
