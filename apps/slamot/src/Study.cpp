@@ -111,37 +111,58 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     return !options.check || checks.passed();
 }
 
+void requireOptionsThatFit(const Options& options) {
+    const bool runs = !options.list && !options.no_run && options.merge.empty();
+    if (options.session.retry_failed && !runs)
+        throw UsageError("--retry-failed: expected without --list, --no-run and --merge, which run nothing");
+    if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty()))
+        throw UsageError("--shard: expected without --check, --export and --fill, which need all rows; "
+                         "give them when merging");
+}
+
+/// Only looks: no file of rows is made.
+void listPlan(const Options& options, const study::Shard& shard, const PluginRegistry& registry) {
+    const study::Plan plan = study::planOf(options.session, registry);
+    for (const std::string& sentence : plan.skipped) fmt::print(stderr, "slamot: {}\n", sentence);
+    const std::string& file = options.session.store_file;
+    printPlan(plan, std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<std::string>(),
+              shard);
+}
+
 int studyJob(const Options& options, const Verbosity& verbosity) {
     const auto begin = std::chrono::steady_clock::now();
     const study::Shard shard = shardFrom(options.shard);
+    requireOptionsThatFit(options);
     const std::filesystem::path folder = std::filesystem::path(options.session.store_file).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw UsageError(
             fmt::format("--db {}: there is no folder {}", options.session.store_file, folder.string()));
 
     const PluginRegistry registry = PluginRegistry::discover();
+    if (options.list) {
+        listPlan(options, shard, registry);
+        return exit_success;
+    }
     study::Session session(options.session, registry);
     // A mistake in a table must not come to light after hours of runs.
     const study::Analysis analysis = study::readAnalysis(session.plan().study);
     if (options.check && analysis.checks.empty())
         throw UsageError(fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
     for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot: {}\n", sentence);
-    if (options.list) {
-        printPlan(session.plan(), session.store().done(session.plan(), true), shard);
-        return exit_success;
-    }
     bool complete = true;
-    if (!options.merge.empty())
-        session.store().merge(options.merge);
+    const bool merging = !options.merge.empty();
+    if (merging)
+        for (const std::string& sentence : session.merge(options.merge)) fmt::print(stderr, "slamot: {}\n", sentence);
     else if (!options.no_run)
         complete = runMissing(session, options, shard, registry, begin, verbosity);
+    const bool merged_in_part = merging && !session.isComplete();
     const std::string state = session.stateInWords();
-    if (state.find('\n') != std::string::npos)
+    if (merged_in_part || state.find('\n') != std::string::npos)
         fmt::print(stderr, "slamot: {}\n", state);
     else if (!verbosity.quiet)
         fmt::print("{}\n", state);
     if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
-    return tellFindings(session, analysis, options) ? exit_success : exit_failed;
+    return tellFindings(session, analysis, options) && !merged_in_part ? exit_success : exit_failed;
 }
 
 }  // namespace
@@ -177,8 +198,6 @@ void addStudy(CLI::App& app, Action& chosen) {
                       "Keep rows that another build of the program made");
     command->callback([&chosen, options] {
         if (options->replicates > 0) options->session.replicates = options->replicates;
-        // Looking at the plan uses no row.
-        if (options->list) options->session.any_build = true;
         chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
     });
 }

@@ -12,6 +12,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t reasons_shown = 3;
 
+}  // namespace
+
 Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
     PlanRequest plan;
     plan.short_form = request.short_form;
@@ -20,24 +22,28 @@ Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
     return layOut(loadStudy(request.study_file), plan, registry);
 }
 
-}  // namespace
-
 std::string workFolderOf(const std::string& store_file) {
     return (fs::path(store_file).parent_path() / "imported_logs").string();
 }
 
 Session::Session(const SessionRequest& request, const PluginRegistry& registry)
     : request_(request), plan_(planOf(request, registry)), store_(request.store_file, plan_.study) {
-    store_.done(plan_, request.any_build);
-    if (!request.retry_failed) return;
-    std::set<std::string> failed;
-    for (const Row& row : rows())
-        if (row.status == "failed") failed.insert(row.key);
-    store_.erase(failed);
+    if (!request.any_build) store_.requireBuild(plan_);
 }
 
 std::vector<Unit> Session::missing(const Shard& shard) const {
-    return unitsOf(plan_, store_.done(plan_, true), shard);
+    return unitsOf(plan_, store_.done(plan_, request_.retry_failed), shard);
+}
+
+std::vector<std::string> Session::merge(const std::vector<std::string>& files) {
+    std::vector<std::string> not_there;
+    for (const std::string& file : files) {
+        if (fs::exists(file))
+            store_.merge(file, plan_, request_.any_build);
+        else
+            not_there.push_back(file + ": is not there, expected a file of rows to merge");
+    }
+    return not_there;
 }
 
 std::string Session::stateInWords() const {
