@@ -80,7 +80,27 @@ TEST(Checks, StatisticsOfNees) {
     const CheckResult absent =
         resultOf("series = robot_nees\ninterval = 0, 1\nstatistic = inside\n", threeWorlds());
     EXPECT_EQ(absent.state, CheckState::failed);
-    EXPECT_EQ(absent.reason, "no run has a series 'robot_nees'");
+    EXPECT_EQ(absent.reason, "3 of 3 runs of 'invariant' are without the series");
+}
+
+TEST(Checks, FailedRunsCountForSeriesToo) {
+    std::vector<Row> rows = rowsOf("paper1", "invariant", {1, 1, 1, 1});
+    for (Row& row : rows) row.series["robot_nees"] = {{0, 1}, {3, 3}, {3, 3}};
+    const std::string anees = "series = robot_nees\nstatistic = anees\ninterval = 2.9, 3.1\n";
+    EXPECT_EQ(resultOf(anees, rows, 4).state, CheckState::passed);
+    for (std::size_t i : {1u, 2u, 3u}) {
+        rows[i].status = "failed";  // what it did before is still there
+        rows[i].reason = "the covariance is not definite";
+    }
+    const CheckResult strict = resultOf(anees, rows, 4);
+    EXPECT_EQ(strict.state, CheckState::failed);
+    EXPECT_EQ(
+        strict.reason,
+        "3 of 4 runs of 'invariant' are without the series, the first since: the covariance is not definite");
+    EXPECT_EQ(resultOf(anees + "missing = 0.7\n", rows, 4).state, CheckState::failed);
+    const CheckResult allowed = resultOf(anees + "missing = 0.75\n", rows, 4);
+    EXPECT_EQ(allowed.state, CheckState::passed);
+    EXPECT_EQ(allowed.reason, strict.reason) << "a check that passed says what it left out";
 }
 
 TEST(Checks, TheEndsBelongToTheInterval) {

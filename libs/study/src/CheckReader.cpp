@@ -98,9 +98,10 @@ ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string
         table.text("series", spec.series, "A series of NEES.");
     } else if (spec.statistic != CheckStatistic::rate) {
         table.text("figure", spec.figure, "A metric or cost of a run.");
-        table.real("missing", spec.missing, "-", Interval::probability(),
-                   "Largest part of the runs that may be without the figure: failed ones.");
     }
+    if (spec.statistic != CheckStatistic::rate)
+        table.real("missing", spec.missing, "-", Interval::probability(),
+                   "Largest part of the runs that may be without the figure or series: failed ones.");
     addBounds(table, "interval", spec.interval, "Where it must lie in the full study.");
     addBounds(table, "short_interval", short_interval, "In the short form; absent: not checked there.");
     table.text("about", spec.about, "Why these bounds.");

@@ -49,28 +49,43 @@ PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*
     return result;
 }
 
-/// Why a cell cannot be judged; empty when it can.
-std::string faultOf(const PlannedCell& planned, const CheckSpec& check, const Plan& plan) {
+/// Failed, or without the figure or series.
+bool lacks(const Row& row, const CheckSpec& check) {
+    if (hasFailed(row)) return true;
+    if (check.series.empty()) return !std::isfinite(figureOf(row, check.figure));
+    const auto found = row.series.find(check.series);
+    return found == row.series.end() || found->second.value.empty();
+}
+
+/// What keeps a cell from being judged, or what to know about it when it can be.
+struct Judgement {
+    bool possible = true;
+    std::string words;
+};
+
+Judgement judge(const PlannedCell& planned, const CheckSpec& check, const Plan& plan) {
     const Cell& cell = planned.cell;
     if (planned.planned == 0) {
         std::string why = fmt::format("source '{}' has no world here", cell.source);
         for (const std::string& reason : plan.skipped) why += "; " + reason;
-        return why;
+        return {false, why};
     }
     if (cell.rows.size() < planned.planned)
-        return fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
-                           planned.planned, cell.variant);
-    if (check.figure.empty()) return {};
+        return {false, fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
+                                   planned.planned, cell.variant)};
+    if (check.figure.empty() && check.series.empty()) return {};  // the rate counts failed runs itself
     std::size_t without = 0;
     std::string example;
     for (const Row* row : cell.rows)
-        if (!std::isfinite(figureOf(*row, check.figure))) {
+        if (lacks(*row, check)) {
             ++without;
             if (example.empty()) example = row->reason;
         }
-    if (static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned)) return {};
-    return fmt::format("{} of {} runs of '{}' are without the figure{}{}", without, planned.planned,
-                       cell.variant, example.empty() ? "" : ", the first since: ", example);
+    if (without == 0) return {};
+    return {static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned),
+            fmt::format("{} of {} runs of '{}' are without the {}{}{}", without, planned.planned,
+                        cell.variant, check.series.empty() ? "figure" : "series",
+                        example.empty() ? "" : ", the first since: ", example)};
 }
 
 Outcome ofSeries(const CheckSpec& check, const Cell& cell) {
@@ -180,13 +195,18 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
 
         result.state = CheckState::failed;
         const PlannedCell planned = plannedCell(plan, by_key, check, check.config);
-        result.reason = faultOf(planned, check, plan);
+        Judgement judgement = judge(planned, check, plan);
         PlannedCell against;
-        if (!check.against.empty() && result.reason.empty()) {
+        result.reason = judgement.words;
+        if (!check.against.empty() && judgement.possible) {
             against = plannedCell(plan, by_key, check, check.against);
-            result.reason = faultOf(against, check, plan);
+            judgement = judge(against, check, plan);
+            if (!judgement.possible || result.reason.empty())
+                result.reason = judgement.words;
+            else if (!judgement.words.empty())
+                result.reason += "; " + judgement.words;
         }
-        if (!result.reason.empty()) continue;
+        if (!judgement.possible) continue;
 
         const double factor = analysis.factor(check.figure);
         const Outcome outcome =

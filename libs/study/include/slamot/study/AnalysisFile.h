@@ -81,7 +81,7 @@ struct CheckSpec {
     GridPoint scenario_point, config_point;
     eval::Band interval;
     std::optional<eval::Band> short_interval;
-    double missing = 0;  ///< largest part of the runs that may be without the figure
+    double missing = 0;  ///< largest part of the runs that may be without the figure or series
     std::string about;
 };
 
