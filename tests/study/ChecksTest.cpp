@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <set>
 
+#include "../../libs/study/src/CheckStatistic.h"
 #include "slamot/study/Checks.h"
 #include "study/Builders.h"
 
@@ -101,6 +104,25 @@ TEST(Checks, FailedRunsCountForSeriesToo) {
     const CheckResult allowed = resultOf(anees + "missing = 0.75\n", rows, 4);
     EXPECT_EQ(allowed.state, CheckState::passed);
     EXPECT_EQ(allowed.reason, strict.reason) << "a check that passed says what it left out";
+}
+
+TEST(Checks, EveryStatisticIsReadByItsNameAndSaidInWords) {
+    const std::string doc = [] {
+        std::ifstream in(SLAMOT_SOURCE_DIR "/doc/studies_analysis.md");
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    }();
+    std::set<std::string> words;
+    for (const CheckStatistic& statistic : checkStatistics()) {
+        std::string text = "interval = -inf, inf\nstatistic = " + statistic.name + "\n";
+        if (statistic.ofFigure()) text += "figure = robot.position.rmse\n";
+        if (statistic.ofPairs()) text += "against = classic\n";
+        if (statistic.ofSeries()) text += "series = robot_nees\n";
+        const CheckSpec spec = readAnalysis(studyOf(checkText(text))).checks.at(0);
+        EXPECT_EQ(spec.statistic, &statistic) << statistic.name;
+        words.insert(statistic.words);
+        EXPECT_THAT(doc, HasSubstr("`" + statistic.name + "`"));
+    }
+    EXPECT_EQ(words.size(), checkStatistics().size()) << "two are called the same";
 }
 
 TEST(Checks, TheEndsBelongToTheInterval) {

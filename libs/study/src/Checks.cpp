@@ -7,6 +7,7 @@
 #include <map>
 #include <variant>
 
+#include "CheckStatistic.h"
 #include "CsvLine.h"
 #include "NumberText.h"
 #include "Selected.h"
@@ -16,11 +17,6 @@ namespace {
 
 /// A value, or why there is none.
 using Outcome = std::variant<double, std::string>;
-
-Outcome valueOr(double value, const std::string& reason) {
-    if (std::isnan(value)) return reason;
-    return value;
-}
 
 /// The cell as far as it has been run, and how many runs the plan has of it.
 struct PlannedCell {
@@ -88,75 +84,43 @@ Judgement judge(const PlannedCell& planned, const CheckSpec& check, const Plan& 
                         example.empty() ? "" : ", the first since: ", example)};
 }
 
-Outcome ofSeries(const CheckSpec& check, const Cell& cell) {
-    const auto measured = consistencyOf(cell, check.series);
-    if (!measured) return measured.whyAbsent();
-    switch (check.statistic) {
-        case CheckStatistic::anees:
-            return measured->average;
-        case CheckStatistic::inside:
-            return measured->inside;
-        case CheckStatistic::above:
-            return measured->above;
-        default:
-            return measured->below;
-    }
-}
+/// What the check's statistic has to be told.
+class Evaluation {
+  public:
+    Evaluation(const CheckSpec& check, const Cell& cell, const Cell& against, double factor,
+               double diverged_above)
+        : check_(check), cell_(cell), against_(against), factor_(factor), diverged_above_(diverged_above) {}
 
-Outcome ofPairs(const CheckSpec& check, const Cell& cell, const Cell& against, double factor) {
-    const Paired pair = compare(cell, against, check.figure);
-    const std::string none = "no world has the figure in both configs, as something to divide by";
-    switch (check.statistic) {
-        case CheckStatistic::ratio:
-            return valueOr(pair.ratio.mean, none);
-        case CheckStatistic::median_ratio:
-            return valueOr(pair.ratio.median, none);
-        case CheckStatistic::ratio_of_means:
-            return valueOr(pair.mean_a / pair.mean_b, none);
-        case CheckStatistic::mean_difference:
-            return valueOr(factor * pair.difference.mean, none);
-        case CheckStatistic::median_difference:
-            return valueOr(factor * pair.difference.median, none);
-        default:
-            return valueOr(static_cast<double>(pair.smaller) / static_cast<double>(pair.difference.count),
-                           none);
+    Outcome operator()(OfFigure value) const {
+        return inUnit(value(statisticOf(figureOf(cell_, check_.figure))), "no run has the figure");
     }
-}
+    Outcome operator()(OfPairs value) const {
+        return inUnit(value(compare(cell_, against_, check_.figure)),
+                      "no world has the figure in both configs, as something to divide by");
+    }
+    Outcome operator()(OfSeries value) const {
+        const auto measured = consistencyOf(cell_, check_.series);
+        if (!measured) return measured.whyAbsent();
+        return value(*measured);
+    }
+    Outcome operator()(OfDivergence value) const {
+        return inUnit(value(divergence(cell_, diverged_above_)), "no run says where the robot was in truth");
+    }
 
-Outcome ofFigure(const CheckSpec& check, const Cell& cell, double factor) {
-    const Statistic s = statisticOf(figureOf(cell, check.figure));
-    const std::string none = "no run has the figure";
-    switch (check.statistic) {
-        case CheckStatistic::mean:
-            return valueOr(factor * s.mean, none);
-        case CheckStatistic::median:
-            return valueOr(factor * s.median, none);
-        case CheckStatistic::minimum:
-            return valueOr(factor * s.minimum, none);
-        default:
-            return valueOr(factor * s.maximum, none);
+  private:
+    Outcome inUnit(double value, const std::string& why_none) const {
+        if (std::isnan(value)) return why_none;
+        return check_.statistic->in_unit ? factor_ * value : value;
     }
-}
+
+    const CheckSpec& check_;
+    const Cell &cell_, &against_;
+    double factor_, diverged_above_;
+};
 
 std::string describe(const CheckSpec& check, const Analysis& analysis) {
-    static const std::map<CheckStatistic, std::string> words = {
-        {CheckStatistic::mean, "mean of {}"},
-        {CheckStatistic::median, "median of {}"},
-        {CheckStatistic::minimum, "least {}"},
-        {CheckStatistic::maximum, "largest {}"},
-        {CheckStatistic::ratio, "mean ratio of {}"},
-        {CheckStatistic::median_ratio, "median ratio of {}"},
-        {CheckStatistic::ratio_of_means, "ratio of mean {}"},
-        {CheckStatistic::mean_difference, "mean difference of {}"},
-        {CheckStatistic::median_difference, "median difference of {}"},
-        {CheckStatistic::smaller, "part of worlds with the smaller {}"},
-        {CheckStatistic::anees, "average of {}"},
-        {CheckStatistic::inside, "steps in the band of {}"},
-        {CheckStatistic::above, "steps above the band of {}"},
-        {CheckStatistic::below, "steps below the band of {}"},
-        {CheckStatistic::rate, "part that diverged"}};
     const std::string& figure = check.figure.empty() ? check.series : check.figure;
-    std::string text = fmt::format(fmt::runtime(words.at(check.statistic)), analysis.label(figure));
+    std::string text = fmt::format(fmt::runtime(check.statistic->words), analysis.label(figure));
     text += fmt::format(", {}, {}", analysis.label(check.source), analysis.label(check.config));
     if (!check.against.empty()) text += " to " + analysis.label(check.against);
     for (const auto* point : {&check.scenario_point, &check.config_point})
@@ -208,14 +172,9 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
         }
         if (!judgement.possible) continue;
 
-        const double factor = analysis.factor(check.figure);
-        const Outcome outcome =
-            !check.series.empty()    ? ofSeries(check, planned.cell)
-            : !check.against.empty() ? ofPairs(check, planned.cell, against.cell, factor)
-            : check.figure.empty()
-                ? valueOr(divergence(planned.cell, plan.study.parameters.diverged_above).diverged.rate,
-                          "no run says where the robot was in truth")
-                : ofFigure(check, planned.cell, factor);
+        const Evaluation evaluation(check, planned.cell, against.cell, analysis.factor(check.figure),
+                                    plan.study.parameters.diverged_above);
+        const Outcome outcome = std::visit(evaluation, check.statistic->value);
         if (const double* value = std::get_if<double>(&outcome)) {
             result.value = *value;
             if (result.interval.contains(*value)) result.state = CheckState::passed;
