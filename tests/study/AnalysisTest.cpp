@@ -135,13 +135,45 @@ TEST(Divergence, CountsFarOffAndFailedRuns) {
     EXPECT_DOUBLE_EQ(d.diverged.rate, 0.6);
 }
 
+TEST(Divergence, AnErrorThatIsNotFiniteDiverged) {
+    auto rows = rowsOf("paper1", "classic", {1, 1, 1});
+    for (Row& row : rows) row.metrics["robot.position.count"] = 40;
+    rows[1].metrics.erase("robot.position.rmse");  // summary.json has null, the row nothing
+    const Divergence d = divergence(cellsOf(rows).front(), 10);
+    EXPECT_EQ(d.failed, 0);
+    EXPECT_EQ(d.diverged.count, 1);
+    EXPECT_EQ(d.diverged.of, 3);
+}
+
+TEST(FigureOf, AFailedRunHasNoCostsOrCounts) {
+    auto rows = rowsOf("paper1", "classic", {1, 1}) + rowsOf("paper1", "invariant", {1, 1});
+    for (Row& row : rows) {
+        row.metrics["counts.landmarks"] = 8;
+        row.cost.step_ms_mean = 2;
+    }
+    rows[1].status = "failed";
+    rows[1].metrics["counts.landmarks"] = 1;
+    rows[1].cost.step_ms_mean = 100;
+    const auto cells = cellsOf(rows);
+    for (const auto& [figure, value] :
+         {std::pair("counts.landmarks", 8.0), std::pair("cost.step_ms_mean", 2.0)}) {
+        const Statistic s = statisticOf(figureOf(cells[0], figure));
+        EXPECT_EQ(s.count, 1) << figure;
+        EXPECT_EQ(s.mean, value) << figure;
+        EXPECT_EQ(compare(cells[0], cells[1], figure).difference.count, 1) << figure;
+        EXPECT_EQ(compare(cells[1], cells[0], figure).difference.count, 1) << figure;
+    }
+}
+
 TEST(ConsistencyOf, MeanOverRunsAgainstTheBandOfItsDegrees) {
     auto rows = rowsOf("paper1", "classic", {1, 1, 1});
     rows[0].series["robot_nees"] = {{0, 1}, {2, 30}, {3, 3}};
     rows[1].series["robot_nees"] = {{0, 1}, {4, 10}, {3, 3}};
+    rows.push_back(failedRow("paper1", "classic", 4));
+    rows[3].series["robot_nees"] = {{0}, {500}, {3}};
     const auto measured = consistencyOf(cellsOf(rows).front(), "robot_nees");
     ASSERT_TRUE(measured);
-    EXPECT_EQ(measured->runs, 2) << "the third has no series";
+    EXPECT_EQ(measured->runs, 2) << "the third has no series, the fourth failed";
     ASSERT_EQ(measured->steps.size(), 2u);
     EXPECT_EQ(measured->steps[0].mean, 3);
     // Chi-square with 6 degrees of freedom: 2.5 % and 97.5 % at 1.2373 and 14.4494 in any table.

@@ -13,8 +13,14 @@
 namespace slamot::study {
 namespace {
 
-bool hasFailed(const Row& row) {
-    return row.status == "failed";
+/// The errors were measured: a truth was there. Where the rmse is not finite, the row lacks it nonetheless.
+bool hasTruth(const Row& row) {
+    return row.metrics.count("robot.position.count") > 0;
+}
+
+/// As figureOf(Cell) has it.
+double figureOfEnded(const Row& row, const std::string& figure) {
+    return hasFailed(row) ? Statistic::none : figureOf(row, figure);
 }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -34,6 +40,10 @@ std::vector<double> ranksOf(const std::vector<double>& values) {
 
 }  // namespace
 
+bool hasFailed(const Row& row) {
+    return row.status == "failed";
+}
+
 std::vector<Cell> cellsOf(const std::vector<Row>& rows) {
     std::vector<Cell> cells;
     std::map<std::tuple<std::string, GridPoint, std::string, GridPoint>, std::size_t> places;
@@ -51,7 +61,7 @@ std::vector<Cell> cellsOf(const std::vector<Row>& rows) {
 
 std::vector<double> figureOf(const Cell& cell, const std::string& figure) {
     std::vector<double> values;
-    for (const Row* row : cell.rows) values.push_back(figureOf(*row, figure));
+    for (const Row* row : cell.rows) values.push_back(figureOfEnded(*row, figure));
     return values;
 }
 
@@ -60,13 +70,13 @@ Paired compare(const Cell& a, const Cell& b, const std::string& figure) {
         throw std::invalid_argument(
             fmt::format("runs of '{}' and '{}' are not of the same worlds", a.source, b.source));
     std::map<int, double> value_of_b;  // by replicate
-    for (const Row* row : b.rows) value_of_b[row->replicate] = figureOf(*row, figure);
+    for (const Row* row : b.rows) value_of_b[row->replicate] = figureOfEnded(*row, figure);
 
     Paired paired;
     std::vector<double> values_a, values_b, differences, ratios;
     for (const Row* row : a.rows) {
         const auto found = value_of_b.find(row->replicate);
-        const double in_a = figureOf(*row, figure);
+        const double in_a = figureOfEnded(*row, figure);
         if (found == value_of_b.end() || !std::isfinite(in_a) || !std::isfinite(found->second)) continue;
         const double in_b = found->second;
         values_a.push_back(in_a);
@@ -88,9 +98,9 @@ Divergence divergence(const Cell& cell, double diverged_above) {
     for (const Row* row : cell.rows) {
         const double rmse = figureOf(*row, "robot.position.rmse");
         failed += hasFailed(*row);
-        if (!hasFailed(*row) && std::isnan(rmse)) continue;
+        if (!hasFailed(*row) && !hasTruth(*row) && std::isnan(rmse)) continue;
         ++known;
-        diverged += hasFailed(*row) || rmse > diverged_above;
+        diverged += hasFailed(*row) || !std::isfinite(rmse) || rmse > diverged_above;
     }
     return {rateOf(diverged, known), failed};
 }
@@ -100,7 +110,7 @@ eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const 
     std::vector<eval::NeesSeries> runs;
     for (const Row* row : cell.rows) {
         const auto found = row->series.find(name);
-        if (found == row->series.end()) continue;
+        if (hasFailed(*row) || found == row->series.end()) continue;
         const Series& series = found->second;
         if (series.dimension.size() != series.value.size() || series.seconds.size() != series.value.size())
             return Result::absent(fmt::format("series '{}' has no dimensions, expected one of NEES", name));

@@ -110,7 +110,11 @@ class Builder {
                 const double exists = measured ? 1 : Statistic::none;  // NaN times anything is NaN
                 TableLine& line = startLine(cell);
                 if (spec_.series.size() > 1) line.fields.push_back({analysis().label(series), {series}});
-                line.fields.push_back(countField(c.runs));
+                const std::size_t runs = cell.rows.size();
+                line.fields.push_back(
+                    c.runs < static_cast<int>(runs)
+                        ? Field{fmt::format("{} of {}", c.runs, runs), {std::to_string(c.runs)}}
+                        : countField(c.runs));
                 line.fields.push_back(numberField(exists * c.average, spec_.digits));
                 line.fields.push_back(numberField(exists * c.mean_dimension, spec_.digits));
                 for (const double part : {c.inside, c.above, c.below})
