@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "../../libs/study/src/StatisticFields.h"
 #include "slamot/study/Analysis.h"
 #include "study/Builders.h"
 
@@ -70,6 +72,19 @@ TEST(Scaled, ScalesEveryNumberButTheCount) {
          {&Statistic::mean, &Statistic::half_width, &Statistic::deviation, &Statistic::median,
           &Statistic::median_low, &Statistic::median_high, &Statistic::minimum, &Statistic::maximum})
         EXPECT_DOUBLE_EQ(s.*value, direct.*value);
+}
+
+TEST(StatisticFields, AreAllNumbersOfAStatisticOnce) {
+    std::set<std::string> names;
+    Statistic s;
+    for (const StatisticField& number : statistic_fields) {
+        EXPECT_TRUE(std::isnan(s.*number.field)) << number.name << " is there twice";
+        s.*number.field = 1;
+        names.insert(number.name);
+    }
+    EXPECT_EQ(names.size(), statistic_fields.size());
+    // A count, padded to the size of a double, and numbers: one not in the table would be left over.
+    EXPECT_EQ(sizeof(Statistic), (1 + statistic_fields.size()) * sizeof(double));
 }
 
 TEST(RateOf, WilsonsInterval) {
@@ -210,6 +225,19 @@ TEST(Rank, TiesShareAndFailedRunsAreLast) {
     EXPECT_DOUBLE_EQ(ranked[1].rank.mean, (2.5 + 1) / 2);
     EXPECT_DOUBLE_EQ(ranked[2].rank.mean, (1 + 2) / 2.0);
     for (const Ranked& r : ranked) EXPECT_EQ(r.rank.count, 2);
+}
+
+TEST(Rank, PointsOfAGridAreNoFurtherWorlds) {
+    std::vector<Row> rows = rowsOf("s", "a", {1, 1}) + rowsOf("s", "b", {2, 2});
+    for (const char* value : {"1", "2"}) {  // at world 1, b is the better at two more points
+        rows.push_back(rowOf("s", "a", 1, 5));
+        rows.push_back(rowOf("s", "b", 1, 4));
+        for (std::size_t back : {1u, 2u}) rows[rows.size() - back].scenario_point = {{"x.y", value}};
+    }
+    const auto ranked = rank(rows, {"s"}, {"a", "b"}, rmse);
+    EXPECT_EQ(ranked[0].rank.count, 2);
+    EXPECT_DOUBLE_EQ(ranked[0].rank.mean, ((1 + 2 + 2) / 3.0 + 1) / 2);
+    EXPECT_DOUBLE_EQ(ranked[1].rank.mean, ((2 + 1 + 1) / 3.0 + 2) / 2);
 }
 
 TEST(Rank, AWorldWhereOneHasNoSuchFigureDoesNotCount) {

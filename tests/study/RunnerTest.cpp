@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "../../libs/study/src/FigureNames.h"
 #include "StudyFolder.h"
 #include "slamot/rawlog/LogError.h"
 #include "slamot/rawlog/RawlogWriter.h"
@@ -61,6 +62,17 @@ TEST_F(RunnerTest, RowsHaveMetricsSeriesAndCosts) {
         EXPECT_FALSE(row.cost.host.empty());
     }
     EXPECT_NE(rows[0].estimate_hash, rows[1].estimate_hash);
+}
+
+TEST_F(RunnerTest, EveryMetricOfARowIsAFigure) {
+    const std::vector<Row> rows = run(plan(usual("1")));
+    ASSERT_FALSE(rows.empty());
+    for (const Row& row : rows) {
+        EXPECT_EQ(row.metrics.count("counts.detections_used"), 1u);
+        for (const auto& [name, value] : row.metrics) EXPECT_TRUE(isFigure(name)) << name;
+    }
+    EXPECT_FALSE(isFigure("counts.landmark"));
+    EXPECT_EQ(nearestFigure("counts.landmark"), "counts.landmarks");
 }
 
 TEST_F(RunnerTest, ThreadsShardsAndInterruptionsGiveTheSameRows) {

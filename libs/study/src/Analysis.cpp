@@ -38,6 +38,20 @@ std::vector<double> ranksOf(const std::vector<double>& values) {
     return ranks;
 }
 
+using Values = std::map<std::string, double>;  // by variant
+
+/// In the order of `variants`; empty where one of them has no value or none a finite one.
+std::vector<double> ranksAt(const Values& by_variant, const std::vector<std::string>& variants) {
+    std::vector<double> values;
+    for (const std::string& variant : variants)
+        if (const auto found = by_variant.find(variant); found != by_variant.end())
+            values.push_back(found->second);
+    const bool one_ended =
+        std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    if (values.size() != variants.size() || !one_ended) return {};
+    return ranksOf(values);
+}
+
 }  // namespace
 
 bool hasFailed(const Row& row) {
@@ -126,27 +140,28 @@ eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const 
 
 std::vector<Ranked> rank(const std::vector<Row>& rows, const std::vector<std::string>& sources,
                          const std::vector<std::string>& variants, const std::string& figure) {
-    // A failed run is worse than any that ended. Nothing at all: the world does not count.
-    using Values = std::map<std::string, double>;
-    std::map<std::tuple<std::string, GridPoint, GridPoint, int>, Values> worlds;
+    // A failed run is worse than any that ended.
+    using Points = std::map<std::pair<GridPoint, GridPoint>, Values>;
+    std::map<std::pair<std::string, int>, Points> worlds;
     for (const Row& row : rows) {
         if (!contains(sources, row.source) || !contains(variants, row.variant)) continue;
         const double value = hasFailed(row) ? std::numeric_limits<double>::infinity() : figureOf(row, figure);
         if (!std::isnan(value))
-            worlds[{row.source, row.scenario_point, row.config_point, row.replicate}][row.variant] = value;
+            worlds[{row.source, row.replicate}][{row.scenario_point, row.config_point}][row.variant] = value;
     }
 
     std::vector<std::vector<double>> ranks(variants.size());
-    for (const auto& [world, by_variant] : worlds) {
-        std::vector<double> values;
-        for (const std::string& variant : variants)
-            if (const auto found = by_variant.find(variant); found != by_variant.end())
-                values.push_back(found->second);
-        const bool one_ended =
-            std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-        if (values.size() != variants.size() || !one_ended) continue;
-        const std::vector<double> here = ranksOf(values);
-        for (std::size_t i = 0; i < variants.size(); ++i) ranks[i].push_back(here[i]);
+    for (const auto& [world, points] : worlds) {
+        std::vector<double> sums(variants.size(), 0);
+        int count = 0;
+        for (const auto& [point, by_variant] : points) {
+            const std::vector<double> here = ranksAt(by_variant, variants);
+            if (here.empty()) continue;
+            ++count;
+            for (std::size_t i = 0; i < variants.size(); ++i) sums[i] += here[i];
+        }
+        if (count == 0) continue;
+        for (std::size_t i = 0; i < variants.size(); ++i) ranks[i].push_back(sums[i] / count);
     }
 
     std::vector<Ranked> result;

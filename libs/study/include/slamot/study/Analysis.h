@@ -32,7 +32,8 @@ struct Statistic {
     int count = 0;
     /// `half_width`: of Student's 95 % interval of the mean.
     double mean = none, half_width = none, deviation = none;
-    /// The interval is the shortest between order statistics that holds the median with at least 95 %.
+    /// The interval is the shortest symmetric one between order statistics that holds the median with at
+    /// least 95 %.
     double median = none, median_low = none, median_high = none;
     double minimum = none, maximum = none;
 };
@@ -72,8 +73,9 @@ Divergence divergence(const Cell& cell, double diverged_above);
 eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const std::string& series);
 
 /// A variant's rank by a figure over worlds: 1 is the smallest, ties share the mean of their ranks, a failed
-/// run is last. A world counts where each variant has the figure or failed, and one at least has it. Each
-/// point of the config grid is a world of its own.
+/// run is last. Variants are ranked at each point of the grids where each has the figure or failed, and one
+/// at least has it. All points of a replicate share its world's seed, so that their ranks are not
+/// independent: their mean is the world's rank, and counts once.
 struct Ranked {
     std::string variant;
     Statistic rank;
