@@ -98,7 +98,7 @@ class Study(SlamotTest):
     def test_a_failing_run_is_a_row_and_its_reason_is_told(self):
         done = self.study("a.db")
         self.assertIn("60 of 60 runs are there, of which 12 failed", done.stderr)
-        self.assertIn("blind on near", done.stderr)
+        self.assertIn("12 x blind on near", done.stderr)
         failed = [row for row in self.rows("a.db") if row[8] == "failed"]
         self.assertEqual({row[3] for row in failed}, {"blind"})
         self.assertIn("identities", failed[0][9])
