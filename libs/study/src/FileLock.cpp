@@ -24,7 +24,8 @@ int opened(const std::string& path) {
 
 FileLock::FileLock(const std::string& path) : descriptor_(opened(path)) {
     int result = descriptor_;
-    if (descriptor_ >= 0) do result = flock(descriptor_, LOCK_EX);
+    if (descriptor_ >= 0) do
+            result = flock(descriptor_, LOCK_EX);
         while (result < 0 && errno == EINTR);
     if (result >= 0) return;
     const int why = errno;

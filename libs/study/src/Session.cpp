@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 
 namespace slamot::study {
 namespace {
@@ -47,23 +48,25 @@ std::vector<std::string> Session::merge(const std::vector<std::string>& files) {
 }
 
 std::string Session::stateInWords() const {
-    std::map<std::string, std::size_t> reasons;
+    // One reason, whatever numbers it comes with: the first stands for all.
+    std::map<std::string, std::pair<std::string, std::size_t>> reasons;
     std::size_t there = 0, failed = 0;
     for (const Row& row : rows()) {
         ++there;
         if (row.status != "failed") continue;
         ++failed;
-        ++reasons[row.variant + " on " + row.source + ": " + row.reason];
+        const std::string reason = row.variant + " on " + row.source + ": " + row.reason;
+        ++reasons.try_emplace(std::regex_replace(reason, std::regex("[0-9]+"), "#"), reason, 0).first->second.second;
     }
     std::string text = fmt::format("{} of {} runs are there", there, plan_.runCount());
     if (failed > 0) text += fmt::format(", of which {} failed", failed);
     std::size_t shown = 0;
-    for (const auto& [reason, count] : reasons) {
+    for (const auto& [pattern, reason_and_count] : reasons) {
         if (shown++ == reasons_shown) {
             text += fmt::format("\n  and {} further reasons", reasons.size() - reasons_shown);
             break;
         }
-        text += fmt::format("\n  {} x {}", count, reason);
+        text += fmt::format("\n  {} x {}", reason_and_count.second, reason_and_count.first);
     }
     return text;
 }
