@@ -99,7 +99,7 @@ std::string commandOf(const Options& options, const std::string& page) {
 bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
     if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
     const std::vector<study::Row> rows = session.rows();
-    const study::Findings findings{session.plan().study, analysis, rows};
+    const study::Findings findings{session.plan().study, analysis, rows, &session.plan()};
     study::CheckReport checks;
     if (options.check) {
         checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
