@@ -7,7 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
+#include <system_error>
 #include <stdexcept>
 
 #include "Meters.h"
@@ -104,24 +106,20 @@ class CheckedSink : public run::Sink {
     run::Sink& sink_;
 };
 
-/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is done.
-/// Anything else (memory, files) is thrown on and ends the study: to be called within a catch.
+/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is done: a
+/// plugin may throw what it likes. Outputs, memory and files are no fault of the method's: thrown on, they end the
+/// study. To be called within a catch.
 std::string sentenceOfFailure() {
     try {
         throw;
-    } catch (const EstimatorError& error) {
-        return sentenceOf(error);
-    } catch (const DetectorError& error) {
-        return sentenceOf(error);
-    } catch (const ConfigError& error) {
-        return sentenceOf(error);
-    } catch (const LogError& error) {
-        return sentenceOf(error);
-    } catch (const std::logic_error& error) {
-        return sentenceOf(error);
-    } catch (const std::exception& error) {
-        if (dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error)) return sentenceOf(error);
+    } catch (const OutputError&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::system_error&) {
+        throw;
+    } catch (const std::exception& error) {
+        return sentenceOf(error);
     }
 }
 
