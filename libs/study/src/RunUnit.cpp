@@ -9,8 +9,8 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <system_error>
 #include <stdexcept>
+#include <system_error>
 
 #include "Meters.h"
 #include "World.h"
@@ -66,7 +66,8 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     };
     row.cost.wall_s = number(time["wall_s"]);
     row.cost.step_ms_mean = number(time["step_ms"]["mean"]);
-    const double cpu_s = number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
+    const double cpu_s =
+        number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
     const double steps = number(time["steps"]);
     row.cost.step_cpu_ms_mean = steps > 0 ? 1e3 * cpu_s / steps : Cost::none;
     row.cost.step_ms_p50 = number(time["step_ms"]["p50"]);
@@ -106,9 +107,9 @@ class CheckedSink : public run::Sink {
     run::Sink& sink_;
 };
 
-/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is done: a
-/// plugin may throw what it likes. Outputs, memory and files are no fault of the method's: thrown on, they end the
-/// study. To be called within a catch.
+/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is
+/// done: a plugin may throw what it likes. Outputs, memory and files are no fault of the method's: thrown on,
+/// they end the study. To be called within a catch.
 std::string sentenceOfFailure() {
     try {
         throw;
@@ -192,8 +193,8 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         const auto begin = std::chrono::steady_clock::now();
         Row& row = rows[i];
         row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
-        const run::RunStatus status =
-            runInto(row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);
+        const run::RunStatus status = runInto(
+            row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);
         if (status == run::RunStatus::stopped) {
             rows.resize(i);
             return rows;
