@@ -92,7 +92,8 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
 
 /// The command that makes a page again.
 std::string commandOf(const Options& options, const std::string& page) {
-    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file, options.session.store_file, page);
+    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file,
+                       options.session.store_file, page);
 }
 
 /// What the rows say, where it was asked for; false when a check failed.
@@ -107,7 +108,8 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     }
     if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
     for (const std::string& page : options.pages)
-        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)), options.check ? &checks : nullptr);
+        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)),
+                        options.check ? &checks : nullptr);
     return !options.check || checks.passed();
 }
 
@@ -116,8 +118,9 @@ void requireOptionsThatFit(const Options& options) {
     if (options.session.retry_failed && !runs)
         throw UsageError("--retry-failed: expected without --list, --no-run and --merge, which run nothing");
     if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty()))
-        throw UsageError("--shard: expected without --check, --export and --fill, which need all rows; "
-                         "give them when merging");
+        throw UsageError(
+            "--shard: expected without --check, --export and --fill, which need all rows; "
+            "give them when merging");
 }
 
 /// Only looks: no file of rows is made.
@@ -125,8 +128,10 @@ void listPlan(const Options& options, const study::Shard& shard, const PluginReg
     const study::Plan plan = study::planOf(options.session, registry);
     for (const std::string& sentence : plan.skipped) fmt::print(stderr, "slamot: {}\n", sentence);
     const std::string& file = options.session.store_file;
-    printPlan(plan, std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<std::string>(),
-              shard);
+    printPlan(
+        plan,
+        std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<std::string>(),
+        shard);
 }
 
 int studyJob(const Options& options, const Verbosity& verbosity) {
@@ -147,12 +152,14 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
     // A mistake in a table must not come to light after hours of runs.
     const study::Analysis analysis = study::readAnalysis(session.plan().study);
     if (options.check && analysis.checks.empty())
-        throw UsageError(fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
+        throw UsageError(
+            fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
     for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot: {}\n", sentence);
     bool complete = true;
     const bool merging = !options.merge.empty();
     if (merging)
-        for (const std::string& sentence : session.merge(options.merge)) fmt::print(stderr, "slamot: {}\n", sentence);
+        for (const std::string& sentence : session.merge(options.merge))
+            fmt::print(stderr, "slamot: {}\n", sentence);
     else if (!options.no_run)
         complete = runMissing(session, options, shard, registry, begin, verbosity);
     const bool merged_in_part = merging && !session.isComplete();
@@ -161,7 +168,8 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
         fmt::print(stderr, "slamot: {}\n", state);
     else if (!verbosity.quiet)
         fmt::print("{}\n", state);
-    if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
+    if (!complete)
+        throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
     return tellFindings(session, analysis, options) && !merged_in_part ? exit_success : exit_failed;
 }
 
@@ -173,12 +181,19 @@ void addStudy(CLI::App& app, Action& chosen) {
         "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
         "study config/studies/consistency.ini --db consistency.db --threads 2");
     auto options = std::make_shared<Options>();
+    // An unset variable of a script: SQLite would keep the rows nowhere, and every node would run everything.
+    const CLI::Validator notEmpty(
+        [](const std::string& text) {
+            return text.empty() ? std::string("expected something, not ''") : std::string();
+        },
+        "");
     command->add_option("study", options->session.study_file, "Study INI file (doc/studies.md)")->required();
     command
         ->add_option("--db", options->session.store_file,
                      "SQLite file of the rows; what it has is not run again")
+        ->check(notEmpty)
         ->required();
-    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts");
+    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts")->check(notEmpty);
     command->add_option("--threads", options->threads, "Runs at the same time; rows do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
@@ -190,8 +205,10 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
     command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
     command->add_flag("--no-run", options->no_run, "Run nothing: only what the rows there are say");
-    command->add_flag("--check", options->check, "Compare with the intervals of [check.*]; exit 1 when one fails");
-    command->add_option("--export", options->export_folder, "Folder for all rows, statistics, tables and figures");
+    command->add_flag("--check", options->check,
+                      "Compare with the intervals of [check.*]; exit 1 when one fails");
+    command->add_option("--export", options->export_folder,
+                        "Folder for all rows, statistics, tables and figures");
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
     command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
     command->add_flag("--any-build", options->session.any_build,
