@@ -197,6 +197,48 @@ TEST(FigureSpec, legendListsLabelledLayersOutsideThePanel) {
     EXPECT_LE(number(legend, "y") + number(legend, "height"), number(panel, "y"));
 }
 
+TEST(FigureSpec, aSharedLegendListsEveryLabelOnceAbovePanelsWithoutOne) {
+    Figure figure = withLayers({Line{"one", {{0, 0}, {1, 1}}}, Line{"two", {{0, 0}, {1, 1}}}});
+    figure.panels.push_back(figure.panels[0]);
+    figure.panels[1].layers.push_back(Line{"three", {{0, 0}, {1, 1}}});
+    for (Panel& panel : figure.panels) {
+        panel.legend = LegendPlace::none;
+    }
+    EXPECT_TRUE(markNamed(figureSpec(figure), "legend").is_null());
+    figure.shared_legend = true;
+    const json spec = figureSpec(figure);
+    std::vector<std::string> labels;
+    for (const json& mark : markNamed(spec, "legend").at("marks")) {
+        if (mark.at("type") == "text") {
+            labels.push_back(mark.at("encode").at("update").at("text").at("value"));
+        }
+    }
+    EXPECT_EQ(labels, (std::vector<std::string>{"one", "two", "three"}));
+    EXPECT_GT(number(markNamed(spec, "panel_0"), "y"), number(markNamed(spec, "legend"), "y"));
+    EXPECT_TRUE(markNamed(spec, "legend_0").is_null());
+}
+
+std::vector<double> logarithmicTicks(double low, double high) {
+    Figure figure = withLayers({Line{"", {{1, low}, {2, high}}}});
+    figure.panels[0].y.logarithmic = true;
+    figure.panels[0].y.min = low;
+    figure.panels[0].y.max = high;
+    for (const json& axis : markNamed(figureSpec(figure), "panel_0").at("axes")) {
+        if (axis.at("scale") == "y") {
+            return axis.at("values").get<std::vector<double>>();
+        }
+    }
+    return {};
+}
+
+TEST(FigureSpec, aLogarithmicAxisHasAtLeastThreeLabels) {
+    EXPECT_EQ(logarithmicTicks(1, 1000), (std::vector<double>{1, 10, 100, 1000}));
+    EXPECT_EQ(logarithmicTicks(0.9, 11), (std::vector<double>{1, 2, 5, 10}));
+    EXPECT_EQ(logarithmicTicks(1.5, 4.5), (std::vector<double>{2, 3, 4})) << "1, 2, 5 would leave one";
+    EXPECT_EQ(logarithmicTicks(10.5, 12.9), (std::vector<double>{10.5, 11, 11.5, 12, 12.5}))
+        << "no digit would be in view";
+}
+
 TEST(FigureSpec, categoriesMayHoldQuotes) {
     Figure figure = withLayers({Bars{"", {groupedBar(0, 0, 2, 1), groupedBar(0, 1, 2, 2)}}});
     figure.panels[0].x.categories = {"the \"new\" one", "it's"};

@@ -83,10 +83,17 @@ title = Errors
     EXPECT_EQ(panel.note, "Mean of 2 runs, upright lines: 95 % interval");
     const auto lines = linesOf(panel);
     ASSERT_EQ(lines.size(), 2u);
-    EXPECT_THAT(lines.at("classic, gate = 3 sigma"),
-                ElementsAre(Eigen::Vector2d(0.1, 3), Eigen::Vector2d(0.2, 6)));
-    EXPECT_THAT(lines.at("classic, gate = 5 sigma"),
-                ElementsAre(Eigen::Vector2d(0.1, 5), Eigen::Vector2d(0.2, 10)));
+    // Two curves, 1.2 % of the extent apart.
+    const auto low = lines.at("classic, gate = 3 sigma"), high = lines.at("classic, gate = 5 sigma");
+    ASSERT_EQ(low.size(), 2u);
+    EXPECT_EQ(low[0].y(), 3);
+    EXPECT_EQ(low[1].y(), 6);
+    EXPECT_EQ(high[0].y(), 5);
+    EXPECT_EQ(high[1].y(), 10);
+    EXPECT_NEAR(low[0].x(), 0.1 - 0.0006, 1e-12);
+    EXPECT_NEAR(high[0].x(), 0.1 + 0.0006, 1e-12);
+    EXPECT_NEAR(high[1].x(), 0.2 + 0.0006, 1e-12);
+    EXPECT_EQ(intervalsOf(panel).at(0).x(), low[0].x()) << "intervals move with their points";
     // t of 97.5 % with one degree is 12.706; the standard error of m - 1 and m + 1 is 1.
     EXPECT_NEAR(intervalsOf(panel).at(0).y(), 3 - 12.706, 1e-3);
     EXPECT_NEAR(intervalsOf(panel).at(1).y(), 3 + 12.706, 1e-3);
@@ -112,6 +119,23 @@ TEST(OverParameter, PointsOfTheScenariosGridArePanelsForAParameterOfTheConfigs) 
                 ElementsAre(Eigen::Vector2d(3, 3), Eigen::Vector2d(5, 5)));
 }
 
+TEST(Figures, OneLegendAndOneColourForAConfigInAllPanels) {
+    const StudyFile study = studyOf("[figure.f]\nkind = over_time\nseries = robot_error\n");
+    auto rows = rowsOf("paper1", "classic", {1}) + rowsOf("paper1", "invariant", {1}) +
+                rowsOf("quiet", "invariant", {1});
+    for (Row& row : rows) row.series["robot_error"] = {{0, 1}, {1, 2}, {}};
+    const report::Figure figure = figureOf(study, rows);
+    ASSERT_EQ(figure.panels.size(), 2u);
+    EXPECT_TRUE(figure.shared_legend);
+    for (const report::Panel& panel : figure.panels) EXPECT_EQ(panel.legend, report::LegendPlace::none);
+    const auto colour = [&](std::size_t panel, std::size_t line) {
+        return std::get<report::Line>(figure.panels[panel].layers.at(line)).colour;
+    };
+    EXPECT_EQ(colour(0, 1), colour(1, 0)) << "of invariant, the only one in the second panel";
+    EXPECT_NE(colour(0, 0), colour(0, 1));
+    EXPECT_EQ(figure.panels[0].note, "Mean of 1 run") << "nothing is shaded";
+}
+
 TEST(Against, OnePanelWithAPointForEachCell) {
     const StudyFile study = studyOf(
         "[figure.f]\nkind = against\nfigures = counts.landmarks, robot.position.rmse\nstatistic = median\n"
@@ -122,7 +146,7 @@ TEST(Against, OnePanelWithAPointForEachCell) {
     ASSERT_EQ(figure.panels.size(), 1u);
     EXPECT_EQ(figure.panels[0].x.label, "counts.landmarks");
     EXPECT_EQ(figure.panels[0].y.label, "robot.position.rmse [mm]");
-    EXPECT_EQ(figure.panels[0].note, "Median of 1 to 3 runs, upright lines: 95 % interval");
+    EXPECT_EQ(figure.panels[0].note, "Median of 1 to 3 runs") << "medians of so few have no interval";
     EXPECT_THAT(linesOf(figure.panels[0]).at("classic"),
                 ElementsAre(Eigen::Vector2d(50, 500), Eigen::Vector2d(102, 2000)));
 }

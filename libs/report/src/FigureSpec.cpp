@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "LayerMarks.h"
+#include "Legend.h"
 #include "PanelSpec.h"
 #include "Text.h"
 
@@ -65,6 +66,14 @@ json figureSpec(const Figure& figure) {
     }
     if (!marks.empty()) {
         y += 4;
+    }
+    if (figure.shared_legend) {
+        const LegendSpec legend = sharedLegendSpec(figure.panels, figure.width - 2 * edge);
+        marks.push_back({{"type", "group"},
+                         {"name", "legend"},
+                         {"encode", {{"update", {{"x", constant(edge)}, {"y", constant(y)}}}}},
+                         {"marks", legend.marks}});
+        y += legend.height + 6;
     }
     const std::size_t columns = static_cast<std::size_t>(std::max(1, figure.columns));
     const double panel_width = (figure.width - edge) / static_cast<double>(columns);

@@ -1,6 +1,7 @@
 #include "Legend.h"
 
 #include <algorithm>
+#include <set>
 
 #include "LayerMarks.h"
 #include "Text.h"
@@ -110,6 +111,19 @@ LegendSpec legendSpec(const Panel& panel, double width) {
         x += entry_width + between_entries;
     }
     return legend;
+}
+
+LegendSpec sharedLegendSpec(const std::vector<Panel>& panels, double width) {
+    Panel all;
+    std::set<std::string> labels;
+    for (const Panel& panel : panels) {
+        for (const Layer& layer : panel.layers) {
+            if (labels.insert(labelOf(layer)).second) {
+                all.layers.push_back(layer);
+            }
+        }
+    }
+    return legendSpec(all, width);
 }
 
 }  // namespace slamot::report

@@ -16,4 +16,7 @@ struct LegendSpec {
 /// `width` pixels wide.
 LegendSpec legendSpec(const Panel& panel, double width);
 
+/// Of several panels, each label once.
+LegendSpec sharedLegendSpec(const std::vector<Panel>& panels, double width);
+
 }  // namespace slamot::report

@@ -40,22 +40,45 @@ json tickFormat(const AxisView& view) {
     return largest >= 1e5 ? json("~s") : largest < 2e-3 ? json("~e") : json();
 }
 
-/// Powers of ten at most `count` of them, with their doubles and fives where only few would be in view.
-json logarithmicTicks(const AxisView& view, double count) {
+/// `digits` times powers of ten within the view, every `step`-th power.
+std::vector<double> logarithmicTicks(const AxisView& view, const std::vector<int>& digits, int step) {
     const int first = static_cast<int>(std::floor(std::log10(view.low)));
     const int last = static_cast<int>(std::ceil(std::log10(view.high)));
-    const int step = std::max(1, static_cast<int>(std::ceil((last - first) / count)));
-    const bool finely = std::log10(view.high / view.low) <= 2;
-    json ticks = json::array();
+    std::vector<double> ticks;
     for (int exponent = first - (first % step); exponent <= last; exponent += step) {
-        for (const int digit : {1, 2, 5}) {
+        for (const int digit : digits) {
             const double tick = digit * std::pow(10, exponent);
-            if ((digit == 1 || finely) && tick >= view.low && tick <= view.high) {
+            if (tick >= view.low && tick <= view.high) {
                 ticks.push_back(tick);
             }
         }
     }
     return ticks;
+}
+
+/// Steps of 1, 2 or 5 times a power of ten, at least three of them in the view.
+std::vector<double> evenTicks(const AxisView& view) {
+    const double most = (view.high - view.low) / 4, power = std::pow(10, std::floor(std::log10(most)));
+    const double step = power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
+    std::vector<double> ticks;
+    for (double i = std::ceil(view.low / step); i * step <= view.high; ++i) {
+        ticks.push_back(i * step);
+    }
+    return ticks;
+}
+
+/// Powers of ten, at most `count` of them; where only few would be in view with more and more between them, so
+/// that the axis can be read.
+std::vector<double> logarithmicTicks(const AxisView& view, double count) {
+    constexpr std::size_t readable = 3;
+    const double decades = std::log10(view.high / view.low);
+    const int step = std::max(1, static_cast<int>(std::ceil(decades / count)));
+    std::vector<double> ticks =
+        logarithmicTicks(view, decades <= 2 ? std::vector<int>{1, 2, 5} : std::vector<int>{1}, step);
+    if (ticks.size() < readable) {
+        ticks = logarithmicTicks(view, {1, 2, 3, 4, 5, 6, 7, 8, 9}, step);
+    }
+    return ticks.size() < readable ? evenTicks(view) : ticks;
 }
 
 json axisSpec(const Axis& axis, const AxisView& view, bool upright) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "OverTime.h"
 #include "Selected.h"
@@ -68,17 +69,24 @@ struct Curves {
 
 class Drawing {
   public:
-    Drawing(const PlotSpec& spec, const Findings& findings) : spec_(spec), findings_(findings) {}
+    Drawing(const PlotSpec& spec, const Findings& findings) : spec_(spec), findings_(findings) {
+        for (const Cell& cell : selectedCells(findings, spec.selection))
+            if (const std::string label = labelOf(cell);
+                std::find(labels_.begin(), labels_.end(), label) == labels_.end())
+                labels_.push_back(label);
+    }
 
     report::Figure figure() const {
         const std::vector<Subject> subjects = subjectsOf();
         report::Figure figure;
         figure.title = spec_.title;
         figure.columns = subjects.size() > 1 ? 2 : 1;
+        figure.shared_legend = subjects.size() > 1;
         for (const Subject& subject : subjects) {
             report::Panel panel = panelOf(subject);
             panel.height = subjects.size() > 1 ? 210 : 300;
             panel.title = subject.title;
+            if (figure.shared_legend) panel.legend = report::LegendPlace::none;
             panel.y.label =
                 analysis().label(spec_.kind == PlotKind::against ? spec_.figures[1] : subject.name);
             panel.y.logarithmic = spec_.logarithmic_y;
@@ -140,6 +148,12 @@ class Drawing {
         return fmt::format("{}", fmt::join(parts, ", "));
     }
 
+    /// One label looks the same in all panels, whatever else they show.
+    report::SeriesStyle styleOf(const std::string& label) const {
+        const auto found = std::find(labels_.begin(), labels_.end(), label);
+        return report::seriesStyle(static_cast<std::size_t>(found - labels_.begin()));
+    }
+
     /// Without the parameter along the axis.
     void addAssignments(std::vector<std::string>& parts, const std::vector<GridPoint>& grid,
                         const GridPoint& point) const {
@@ -163,7 +177,31 @@ class Drawing {
         Curves curves;
         for (const Cell& cell : subject.cells)
             curves.add(labelOf(cell), parameterOf(cell), statisticOfCell(cell, subject.name));
+        spreadAlongX(curves);
         return panelOf(curves, spec_.parameter);
+    }
+
+    /// Curves of one parameter have their points at the same places: a little apart, their intervals can be told
+    /// from each other.
+    void spreadAlongX(Curves& curves) const {
+        const auto place = [&](double x) { return spec_.logarithmic_x ? std::log(x) : x; };
+        std::set<double> places;
+        for (const auto& [label, points] : curves.points)
+            for (const auto& [x, s] : points) places.insert(place(x));
+        const double count = static_cast<double>(curves.labels.size());
+        if (places.size() < 2 || count < 2 || !std::isfinite(*places.begin())) return;
+        const double extent = *places.rbegin() - *places.begin();
+        double gap = extent;
+        for (auto next = std::next(places.begin()); next != places.end(); ++next)
+            gap = std::min(gap, *next - *std::prev(next));
+        const double step = std::min(0.012 * extent, 0.4 * gap / count);
+        for (std::size_t i = 0; i < curves.labels.size(); ++i) {
+            const double shift = step * (static_cast<double>(i) - (count - 1) / 2);
+            std::map<double, Statistic> shifted;
+            for (const auto& [x, s] : curves.points[curves.labels[i]])
+                shifted[spec_.logarithmic_x ? x * std::exp(shift) : x + shift] = s;
+            curves.points[curves.labels[i]] = shifted;
+        }
     }
 
     /// A point for each cell; the interval is that along y.
@@ -178,23 +216,25 @@ class Drawing {
     report::Panel panelOf(const Curves& curves, const std::string& along_x) const {
         report::Panel panel;
         panel.x.label = analysis().label(along_x);
+        bool intervals = false;
         for (std::size_t i = 0; i < curves.labels.size(); ++i) {
-            const report::SeriesStyle style = report::seriesStyle(i);
+            const report::SeriesStyle style = styleOf(curves.labels[i]);
             report::Line line{curves.labels[i], {}, style.colour, 1.5, style.dash};
             for (const auto& [x, s] : curves.points.at(curves.labels[i])) {
                 const double y = shownOf(s);
                 const double low = ofMedians() ? s.median_low : s.mean - s.half_width;
                 const double high = ofMedians() ? s.median_high : s.mean + s.half_width;
                 line.points.emplace_back(x, y);
-                if (std::isfinite(low))
-                    panel.layers.push_back(report::Line{
-                        "", {{x, shownLow(low, y, spec_.logarithmic_y)}, {x, high}}, style.colour, 1.2});
+                if (!std::isfinite(low)) continue;
+                intervals = true;
+                panel.layers.push_back(report::Line{
+                    "", {{x, shownLow(low, y, spec_.logarithmic_y)}, {x, high}}, style.colour, 1.2});
             }
             panel.layers.push_back(line);
             panel.layers.push_back(report::Points{"", line.points, style.colour, report::Symbol::dot, 6});
         }
-        panel.note = fmt::format("{} of {}, upright lines: 95 % interval", ofMedians() ? "Median" : "Mean",
-                                 curves.runs.text());
+        panel.note = fmt::format("{} of {}{}", ofMedians() ? "Median" : "Mean", curves.runs.text(),
+                                 intervals ? ", upright lines: 95 % interval" : "");
         return panel;
     }
 
@@ -203,15 +243,17 @@ class Drawing {
         panel.x = report::timeAxis();
         RunCount runs;
         double interval = 0;
+        bool shaded = false;
         std::vector<report::Layer> lines;  // above all bands
         for (const Cell& cell : subject.cells) {
             const Course course = courseOf(cell, subject.name);
             if (course.steps.empty()) continue;
             runs.add(course.runs);
             interval = std::max(interval, course.interval);
-            const report::SeriesStyle style = report::seriesStyle(lines.size());
             const double factor = analysis().factor(subject.name);
-            report::Line line{labelOf(cell), {}, style.colour, 1.5, style.dash};
+            const std::string label = labelOf(cell);
+            const report::SeriesStyle style = styleOf(label);
+            report::Line line{label, {}, style.colour, 1.5, style.dash};
             report::Band band{"", {}, style.colour, 0.15};
             for (const CourseStep& step : course.steps) {
                 const double y = factor * (ofMedians() ? step.median : step.mean);
@@ -219,12 +261,13 @@ class Drawing {
                 band.rows.push_back(
                     {step.seconds, shownLow(factor * step.low, y, spec_.logarithmic_y), factor * step.high});
             }
-            if (course.runs > 1) panel.layers.push_back(band);
+            if (course.runs > 1) panel.layers.push_back(band), shaded = true;
             lines.push_back(line);
         }
         panel.layers.insert(panel.layers.end(), lines.begin(), lines.end());
         panel.note =
-            fmt::format("{} of {}, shaded: the middle 80 %", ofMedians() ? "Median" : "Mean", runs.text());
+            fmt::format("{} of {}{}", ofMedians() ? "Median" : "Mean", runs.text(),
+                        shaded ? ", shaded: the middle 80 %" : "");
         if (interval > 0) panel.note += fmt::format("; averaged over {:.2g} s", interval);
         return panel;
     }
@@ -254,7 +297,7 @@ class Drawing {
             band.rows.push_back({step.stamp.seconds(), step.band.low, step.band.high});
         panel.layers.push_back(band);
         for (std::size_t i = 0; i < courses.size(); ++i) {
-            const report::SeriesStyle style = report::seriesStyle(i);
+            const report::SeriesStyle style = styleOf(courses[i].label);
             report::Line line{courses[i].label, {}, style.colour, 1.2, style.dash};
             for (const eval::ConsistencyStep& step : courses[i].consistency.steps)
                 line.points.emplace_back(step.stamp.seconds(), step.mean);
@@ -268,6 +311,7 @@ class Drawing {
 
     const PlotSpec& spec_;
     const Findings& findings_;
+    std::vector<std::string> labels_;  ///< of all lines, in the order of their colours
 };
 
 }  // namespace

@@ -42,6 +42,8 @@ struct Figure {
     std::string title, subtitle;
     double width = 900;  ///< pixels
     int columns = 1;
+    /// One legend above all panels, each label once, beside those that panels have of their own.
+    bool shared_legend = false;
     std::vector<Panel> panels;
 };
 
