@@ -132,7 +132,10 @@ Config Config::fromFile(const std::string& path) {
     std::ostringstream text;
     text << file.rdbuf();
     if (!file) throw ConfigError(fmt::format("{}: the config file cannot be read, expected INI text", path));
-    Config config = fromText(text.str(), path);
+    // Editors of Windows write a byte order mark before the first letter.
+    const std::string byte_order_mark = "\xEF\xBB\xBF", content = text.str();
+    Config config =
+        fromText(content.substr(startsWith(content, byte_order_mark) ? byte_order_mark.size() : 0), path);
     const auto parent = std::filesystem::path(path).parent_path();
     config.folder_ = parent.empty() ? "." : parent.string();
     return config;
