@@ -10,6 +10,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "../slamot/src/ExitCode.h"
+#include "../slamot/src/SessionOptions.h"
 #include "Ranks.h"
 #include "slamot/core/Version.h"
 #include "slamot/core/plugin/ErrorText.h"
@@ -21,9 +23,7 @@ namespace {
 using namespace slamot;
 namespace mpi = boost::mpi;
 using Clock = std::chrono::steady_clock;
-
-/// As those of `slamot`.
-constexpr int exit_success = 0, exit_failed = 1, exit_bad_input = 2;
+using app::exit_bad_input, app::exit_failed, app::exit_success;
 
 std::atomic<bool> stop_requested{false};
 
@@ -33,20 +33,12 @@ void onSignal(int) {
 
 struct Options {
     study::SessionRequest session;
-    int replicates = 0;
     bool quiet = false;
 };
 
 void addOptions(CLI::App& app, Options& options) {
     app.set_version_flag("--version", std::string("slamot_study_mpi ") + version);
-    app.add_option("study", options.session.study_file, "Study INI file (doc/studies.md)")->required();
-    app.add_option("--db", options.session.store_file, "SQLite file of the rows, of rank 0")->required();
-    app.add_option("--replicates", options.replicates, "Instead of [study] replicates")
-        ->check(CLI::Range(1, 1000000));
-    app.add_flag("--short", options.session.short_form, "As many replicates as [study] short_replicates");
-    app.add_flag("--retry-failed", options.session.retry_failed, "Run failed rows again");
-    app.add_flag("--any-build", options.session.any_build,
-                 "Keep rows that another build of the program made");
+    slamot::app::addSessionOptions(app, options.session);
     app.add_flag("-q,--quiet", options.quiet, "No progress");
 }
 
@@ -125,7 +117,6 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_success : exit_bad_input;
     }
-    if (options.replicates > 0) options.session.replicates = options.replicates;
 
     const auto tellAndGiveUp = [&](const std::exception& error, int code) {
         fmt::print(stderr, "slamot_study_mpi: {}\n", sentenceOf(error));

@@ -1,8 +1,9 @@
-// A whole estimator, whose constructor may throw.
+// A whole estimator, whose constructor or first step may throw.
 #include <mrpt/core/initializer.h>
 #include <slamot/core/plugin/Estimator.h>
 #include <slamot/core/plugin/PluginRecord.h>
 
+#include <new>
 #include <stdexcept>
 
 #include "Words.h"
@@ -33,7 +34,11 @@ class CLASS : public Estimator {
         return {};
     }
     void onStart(const Start&) override {}
-    void onPredict(const OdometryIncrement&) override {}
+    void onPredict(const OdometryIncrement&) override {
+#if defined(OUT_OF_MEMORY)
+        throw std::bad_alloc();
+#endif
+    }
     UpdateReport onUpdate(const DetectionSet&) override {
         return {};
     }

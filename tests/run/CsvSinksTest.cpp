@@ -216,14 +216,14 @@ TEST(RowClockTest, DetectionsAlwaysGetARowAndOthersOnePerInterval) {
 
 TEST_F(CsvSinksTest, AFileIsPartUntilItIsClosed) {
     {
-        run::PartFile file(path("a.csv"));
+        PartFile file(path("a.csv"));
         file.line("one");
         EXPECT_FALSE(fs::exists(path("a.csv")));
     }  // thrown away without close, as by an exception
     EXPECT_FALSE(fs::exists(path("a.csv")));
     EXPECT_EQ(textOf(path("a.csv.part")), "one\n");
 
-    run::PartFile file(path("b.csv"));
+    PartFile file(path("b.csv"));
     file.line("two");
     file.close();
     EXPECT_EQ(textOf(path("b.csv")), "two\n");
@@ -231,10 +231,10 @@ TEST_F(CsvSinksTest, AFileIsPartUntilItIsClosed) {
 }
 
 TEST_F(CsvSinksTest, AFileThatCannotBeWrittenIsAnError) {
-    EXPECT_THAT(messageOf<LogError>([&] { run::PartFile(path("none/a.csv")); }), HasSubstr("none/a.csv"));
+    EXPECT_THAT(messageOf<LogError>([&] { PartFile(path("none/a.csv")); }), HasSubstr("none/a.csv"));
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     fs::create_symlink("/dev/full", path("full.csv.part"));
-    run::PartFile file(path("full.csv"));
+    PartFile file(path("full.csv"));
     file.line("one");
     EXPECT_THAT(messageOf<LogError>([&] { file.close(); }), HasSubstr("is the disk full?"));
     EXPECT_FALSE(fs::exists(path("full.csv")));

@@ -29,6 +29,22 @@ std::string refusal(const std::string& text) {
     return messageOf<ConfigError>([&] { readAnalysis(study); });
 }
 
+TEST(Units, FitWhatAFigureMeasuresAndItsOwnUnit) {
+    const auto factor = [](const std::string& figure, const std::string& unit) {
+        const StudyFile study = studyOf("[table.t]\nkind = means\nfigures = " + figure + "\n[units]\n" + figure +
+                                        " = " + unit + "\n");
+        return readAnalysis(study).factor(figure);
+    };
+    EXPECT_DOUBLE_EQ(factor("robot.position.rmse", "mm"), 1000);
+    EXPECT_DOUBLE_EQ(factor("targets.by_target.7.relative_position.median", "km"), 1e-3);
+    EXPECT_DOUBLE_EQ(factor("landmark_set.gospa.total", "cm"), 100);
+    EXPECT_DOUBLE_EQ(factor("ate.heading.maximum", "mrad"), 1000);
+    EXPECT_DOUBLE_EQ(factor("nis.landmarks.landmark.inside", "%"), 100);
+    EXPECT_DOUBLE_EQ(factor("cost.wall_s", "ms"), 1000);
+    EXPECT_DOUBLE_EQ(factor("cost.step_ms_p99", "us"), 1000) << "it is in milliseconds itself";
+    EXPECT_DOUBLE_EQ(factor("cost.step_cpu_ms_mean", "s"), 1e-3);
+}
+
 TEST(AnalysisFile, ReadsWhatIsThereInTheOrderOfTheFile) {
     const Analysis a = analysisOf(R"([table.second]
 kind = runs
@@ -173,7 +189,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[units]\nrobot.heading.rmse = deg\n", "in [units] is no figure of a table"},
         Mistake{
             "[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = degrees\n",
-            "'degrees' in [units] is no unit"}));
+            "'degrees' in [units] is no unit"},
+        Mistake{"[table.t]\nkind = means\nfigures = robot.position.rmse\n[units]\nrobot.position.rmse = deg\n",
+                "demo.ini:5: robot.position.rmse = 'deg', but it is a length, expected mm | cm | m | km in [units]"},
+        Mistake{"[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = mm\n",
+                "but it is an angle, expected deg | mrad | rad"},
+        Mistake{"[table.t]\nkind = means\nfigures = cost.wall_s\n[units]\ncost.wall_s = %\n",
+                "but it is a time, expected us | ms | s"},
+        Mistake{"[table.t]\nkind = means\nfigures = counts.landmarks\n[units]\ncounts.landmarks = %\n",
+                "but it is a number, expected no unit for it"}));
 
 TEST(AnalysisFile, ChecksAreRefusedWithFileAndLine) {
     const std::string start = in_check, figure = "figure = robot.position.rmse\n",

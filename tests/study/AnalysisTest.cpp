@@ -145,9 +145,9 @@ TEST(Divergence, CountsFarOffAndFailedRuns) {
     rows.push_back(without_truth);
     const Divergence d = divergence(cellsOf(rows).front(), 10);
     EXPECT_EQ(d.failed, 1);
-    EXPECT_EQ(d.diverged.count, 3);
-    EXPECT_EQ(d.diverged.of, 5) << "a run without truth says nothing";
-    EXPECT_DOUBLE_EQ(d.diverged.rate, 0.6);
+    EXPECT_EQ(d.diverged, 3 - d.failed);
+    EXPECT_EQ(d.lost.of, 5) << "a run without truth says nothing";
+    EXPECT_DOUBLE_EQ(d.lost.rate, 0.6);
 }
 
 TEST(Divergence, AnErrorThatIsNotFiniteDiverged) {
@@ -156,8 +156,8 @@ TEST(Divergence, AnErrorThatIsNotFiniteDiverged) {
     rows[1].metrics.erase("robot.position.rmse");  // summary.json has null, the row nothing
     const Divergence d = divergence(cellsOf(rows).front(), 10);
     EXPECT_EQ(d.failed, 0);
-    EXPECT_EQ(d.diverged.count, 1);
-    EXPECT_EQ(d.diverged.of, 3);
+    EXPECT_EQ(d.diverged, 1);
+    EXPECT_EQ(d.lost.of, 3);
 }
 
 TEST(FigureOf, AFailedRunHasNoCostsOrCounts) {

@@ -15,20 +15,17 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// Replicates 1 to `replicates` of both sources with both configs, keys as rowOf makes them.
+/// Replicates 1 to `replicates` of both sources with both configs.
 Plan planOf(const StudyFile& study, int replicates) {
     Plan plan;
     plan.study = study;
+    plan.kinds.resize(2);
+    for (PlannedWorldKind& kind : plan.kinds) kind.runs = {{0, 0, 0}, {1, 0, 0}};
     for (int replicate = 1; replicate <= replicates; ++replicate)
-        for (std::size_t source : {0u, 1u}) {
+        for (std::uint32_t source : {0u, 1u}) {
             WorldPlan& world = plan.worlds.emplace_back();
-            world.source = source;
+            world.source = world.kind = source;
             world.replicate = replicate;
-            for (std::size_t variant : {0u, 1u}) {
-                RunPlan& run = world.runs.emplace_back();
-                run.variant = variant;
-                run.key = rowOf(study.sources[source].name, study.variants[variant].name, replicate, 0).key;
-            }
         }
     return plan;
 }

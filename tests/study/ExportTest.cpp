@@ -5,9 +5,11 @@
 #include <sstream>
 
 #include "slamot/rawlog/CsvTable.h"
+#include "slamot/rawlog/LogError.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/study/Export.h"
 #include "study/Builders.h"
+#include "support/Expect.h"
 #include "support/TemporaryFolder.h"
 
 namespace slamot::study {
@@ -119,6 +121,51 @@ TEST_F(Export, TablesAndFigures) {
     EXPECT_EQ(read("tables/errors.csv").size(), 2u);
     if (!not_drawn_.empty()) GTEST_SKIP() << not_drawn_;
     EXPECT_THAT(folder_.read("out/figures/nees.svg"), testing::HasSubstr("<svg"));
+}
+
+/// A study of one table, without rows: quick to export.
+void exportTable(const std::string& study_name, const std::string& table, const std::string& folder) {
+    StudyFile study = studyOf("[table." + table + "]\nkind = divergence\n");
+    study.name = study_name;
+    const Analysis analysis = readAnalysis(study);
+    exportStudy({study, analysis, {}}, folder);
+}
+
+TEST_F(Export, OnlyItsOwnEarlierFilesGiveWay) {
+    namespace fs = std::filesystem;
+    const auto there = [&](const std::string& name) { return fs::exists(folder_.path("again/" + name)); };
+    exportTable("demo", "old", folder_.path("again"));
+    folder_.write("again/tables/notes.md", "mine");
+    ASSERT_TRUE(there("tables/old.csv"));
+    exportTable("demo", "new", folder_.path("again"));
+    EXPECT_TRUE(there("tables/new.md"));
+    EXPECT_TRUE(there("tables/notes.md"));
+    EXPECT_FALSE(there("tables/old.md"));
+    EXPECT_FALSE(there("tables/old.csv"));
+
+    EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("other", "x", folder_.path("again")); }),
+                testing::HasSubstr("again: holds an export of the study 'demo', expected one of 'other'"));
+    EXPECT_TRUE(there("tables/new.md"));
+    EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("demo", "x", folder_.path()); }),
+                testing::HasSubstr("holds files that no export of a study made"));
+}
+
+TEST_F(Export, AFullDiskIsASentence) {
+    for (const char* file : {"rows.csv", "ranks.csv", "tables/t.md"}) {
+        const std::string out = folder_.path("full" + std::to_string(file[0]) + file[1]);
+        exportTable("demo", "t", out);
+        std::filesystem::create_symlink("/dev/full", out + "/" + file + ".part");
+        EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("demo", "t", out); }),
+                    testing::HasSubstr(std::string(file) + ": cannot be written to its end"));
+    }
+}
+
+TEST_F(Export, NothingOutsideTheFolderIsRemovedWhateverTheListSays) {
+    folder_.write("precious", "mine");
+    exportTable("demo", "t", folder_.path("in"));
+    folder_.write("in/exported_files.txt", "demo\n../precious\n" + folder_.path("precious") + "\n");
+    exportTable("demo", "t", folder_.path("in"));
+    EXPECT_EQ(folder_.read("precious"), "mine");
 }
 
 TEST_F(Export, AFolderThatCannotBeMadeIsAnError) {

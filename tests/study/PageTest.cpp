@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "slamot/core/Version.h"
+#include "slamot/rawlog/LogError.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/study/Page.h"
 #include "study/Builders.h"
@@ -118,6 +119,56 @@ TEST_F(Page, RefusesWhatItCannotFill) {
     EXPECT_THAT(refusal("<!-- study demo checks -->\n<!-- end -->\n"), HasSubstr("were not made"));
 }
 
+TEST_F(Page, KeepsTheLineEndsOfWindows) {
+    write("# Title\r\n<!-- study demo table errors -->\r\nold\r\n<!-- end -->\r\nlast\r\n");
+    fill(rowsOf("paper1", "classic", {0.25}));
+    EXPECT_EQ(page(),
+              "# Title\r\n<!-- study demo table errors -->\r\n"
+              "| config  | runs | robot.position.rmse |\r\n"
+              "|---------|-----:|--------------------:|\r\n"
+              "| classic |    1 |               0.250 |\r\n"
+              "<!-- end -->\r\nlast\r\n");
+}
+
+TEST_F(Page, AStudysNameMayHoldBlanks) {
+    StudyFile study = study_;
+    study.name = "my own study";
+    write(
+        "<!-- study my own study stamp -->\n<!-- end -->\n"
+        "<!-- study my own studystamp stamp -->\nkept\n<!-- end -->\n");
+    fillPage(folder_.path("page.md"), {study, analysis_, {}}, provenance, nullptr);
+    EXPECT_THAT(page(), HasSubstr("-->\nFilled on"));
+    EXPECT_THAT(page(), HasSubstr("-->\nkept\n"));
+}
+
+TEST_F(Page, LinksToFiguresOfPagesWithBlanks) {
+    const StudyFile study = studyOf(
+        "[figure.f]\nkind = bands\nseries = robot_nees\ntitle = a * b [x](y)\n");
+    const Analysis analysis = readAnalysis(study);
+    folder_.write("a page.md", "<!-- study demo figure f -->\n<!-- end -->\n");
+    try {
+        fillPage(folder_.path("a page.md"), {study, analysis, {}}, provenance, nullptr);
+    } catch (const report::ReportError& error) {
+        GTEST_SKIP() << error.what();
+    }
+    EXPECT_THAT(folder_.read("a page.md"), HasSubstr("![a \\* b \\[x\\](y)](a%20page_f.svg)"));
+    EXPECT_THAT(folder_.read("a page_f.svg"), HasSubstr("<svg"));
+}
+
+TEST_F(Page, AFullDiskLeavesThePageAsItWas) {
+    const std::string text = "<!-- study demo stamp -->\n<!-- end -->\n";
+    write(text);
+    std::filesystem::create_symlink("/dev/full", folder_.path("page.md.part"));
+    EXPECT_THAT(messageOf<LogError>([&] { fill({}); }),
+                HasSubstr("page.md: cannot be written to its end (is the disk full?)"));
+    EXPECT_EQ(page(), text);
+}
+
+TEST_F(Page, ACommandWithBackticksIsStillCode) {
+    EXPECT_THAT(stampLine({"d", "p", 1, "slamot study 'a`b.ini'"}, {study_, analysis_, {}}),
+                HasSubstr(": ``slamot study 'a`b.ini'``"));
+}
+
 TEST_F(Page, StampCountsMachinesButDoesNotNameThem) {
     auto rows = rowsOf("paper1", "classic", {1, 2, 3});
     rows[0].cost.host = "alpha";
@@ -130,8 +181,8 @@ TEST_F(Page, StampCountsMachinesButDoesNotNameThem) {
 TEST_F(Page, StampSaysWhatIsNotThere) {
     Plan plan;
     plan.study = study_;
-    WorldPlan& world = plan.worlds.emplace_back();  // of paper1
-    world.runs.resize(5);
+    plan.worlds.emplace_back();  // of paper1
+    plan.kinds.emplace_back().runs.resize(5);
     plan.skipped = {"source quiet is skipped: no *.rawlog in /some/folder"};
     auto rows = rowsOf("paper1", "classic", {1, 2, 3});
     rows[1].status = "truncated";
@@ -141,7 +192,7 @@ TEST_F(Page, StampSaysWhatIsNotThere) {
     EXPECT_THAT(some,
                 HasSubstr(", from 4 of 5 runs (1 failed, 1 truncated, 1 corrupt; no runs of: quiet): `"));
     EXPECT_THAT(some, Not(HasSubstr("/some/folder")));
-    world.runs.resize(1);
+    plan.kinds[0].runs.resize(1);
     plan.skipped.clear();
     rows.resize(1);
     EXPECT_THAT(stampLine(provenance, {study_, analysis_, rows, &plan}), HasSubstr(", from 1 runs: `slamot"));

@@ -30,8 +30,8 @@ TEST_F(PlanTest, WorldsGoReplicateByReplicateInTheOrderOfTheFile) {
     EXPECT_THAT(worldNames(laid), ElementsAre("near-1", "far-1", "near-2", "far-2"));
     EXPECT_EQ(laid.runCount(), 8u);
     EXPECT_EQ(keysOf(laid).size(), 8u);
-    EXPECT_EQ(laid.nameOf(laid.worlds[0].runs[0]), "classic");
-    EXPECT_EQ(laid.nameOf(laid.worlds[0].runs[1]), "invariant");
+    EXPECT_EQ(laid.nameOf(laid.runsOf(laid.worlds[0])[0]), "classic");
+    EXPECT_EQ(laid.nameOf(laid.runsOf(laid.worlds[0])[1]), "invariant");
 }
 
 TEST_F(PlanTest, ALongerStudyBeginsWithTheShorterOnesRuns) {
@@ -41,7 +41,8 @@ TEST_F(PlanTest, ALongerStudyBeginsWithTheShorterOnesRuns) {
     const Plan two = plan(usual("3"), request);
     ASSERT_EQ(two.worlds.size(), 4u);
     for (std::size_t w = 0; w < two.worlds.size(); ++w)
-        for (std::size_t r = 0; r < 2; ++r) EXPECT_EQ(two.worlds[w].runs[r].key, three.worlds[w].runs[r].key);
+        for (std::size_t r = 0; r < 2; ++r) EXPECT_EQ(two.keyOf(two.worlds[w], two.runsOf(two.worlds[w])[r]),
+                      three.keyOf(three.worlds[w], three.runsOf(three.worlds[w])[r]));
     request.replicates = 1;
     EXPECT_EQ(plan(usual("3"), request).worlds.size(), 2u);
 }
@@ -59,9 +60,9 @@ TEST_F(PlanTest, SeedsPairConfigsAndGridPointsButNotWorlds) {
     EXPECT_NE(laid.worlds[0].world_seed, laid.worlds[2].world_seed);
     EXPECT_NE(laid.worlds[0].world_seed, laid.worlds[4].world_seed);
     std::set<std::uint64_t> seeds;
-    for (const RunPlan& one : laid.worlds[0].runs) seeds.insert(one.estimator_seed);
+    for (const RunPlan& one : laid.runsOf(laid.worlds[0])) seeds.insert(laid.estimatorSeedOf(laid.worlds[0], one));
     EXPECT_EQ(seeds.size(), 4u);
-    EXPECT_EQ(laid.nameOf(laid.worlds[0].runs[3]), "invariant-p2");
+    EXPECT_EQ(laid.nameOf(laid.runsOf(laid.worlds[0])[3]), "invariant-p2");
     EXPECT_EQ(laid.configs[3].config.section("ekf_slamot.target").at("noise_std").value, "0.2");
     EXPECT_EQ(laid.kinds[1].scenario->section("sensor.landmarks").at("range_std").value, "0.3");
     // The scenario's own override stands beside the grid's.
@@ -91,16 +92,35 @@ TEST_F(PlanTest, VariantsRunWhereTheySayAndWithTheSourcesConfig) {
         "[config.b_only]\nfile = ekf.ini\nrun.estimator = dead_reckoning\non = b\n");
     ASSERT_EQ(laid.worlds.size(), 2u);
     std::vector<std::string> a, b;
-    for (const RunPlan& one : laid.worlds[0].runs) a.push_back(laid.nameOf(one));
-    for (const RunPlan& one : laid.worlds[1].runs) b.push_back(laid.nameOf(one));
+    for (const RunPlan& one : laid.runsOf(laid.worlds[0])) a.push_back(laid.nameOf(one));
+    for (const RunPlan& one : laid.runsOf(laid.worlds[1])) b.push_back(laid.nameOf(one));
     EXPECT_THAT(a, ElementsAre("own", "file"));
     EXPECT_THAT(b, ElementsAre("file", "b_only"));
-    const Config& own = laid.configs[laid.worlds[0].runs[0].config].config;
+    const Config& own = laid.configs[laid.runsOf(laid.worlds[0])[0].config].config;
     EXPECT_EQ(own.section("ekf_slamot").at("consistency").value, "classic");
     EXPECT_EQ(own.section("motion").at("wheelbase").value, "2");
     EXPECT_THAT(
         mistake("[study]\n[scenario.a]\nfile = field.ini\n[config.c]\nekf_slamot.consistency = classic\n"),
         HasSubstr("small.ini:4: [config.c] has no 'file' and source a no 'config'"));
+}
+
+TEST_F(PlanTest, AStudyFileMayBeginWithAByteOrderMark) {
+    EXPECT_EQ(keysOf(plan("\xEF\xBB\xBF" + usual())), keysOf(plan(usual())));
+}
+
+TEST_F(PlanTest, AMillionReplicatesAreLaidOutInLittleMemory) {
+    PlanRequest request;
+    request.replicates = 1000000;
+    const Plan laid = plan(usual(), request);
+    EXPECT_EQ(laid.runCount(), 4000000u);
+    // Per world, whatever it has of runs; keys are computed when asked for.
+    EXPECT_LE(sizeof(WorldPlan), 24u);
+    EXPECT_EQ(laid.worlds.capacity(), 2000000u);
+    EXPECT_EQ(laid.nameOf(laid.worlds.back()), "far-1000000");
+    const Plan small = plan(usual());
+    for (std::size_t w = 0; w < small.worlds.size(); ++w)
+        EXPECT_EQ(laid.keyOf(laid.worlds[w], laid.runsOf(laid.worlds[w])[1]),
+                  small.keyOf(small.worlds[w], small.runsOf(small.worlds[w])[1]));
 }
 
 TEST_F(PlanTest, AMissingDatasetIsSkippedWithASentenceUnlessNothingRemains) {

@@ -98,8 +98,12 @@ TEST_F(RunnerTest, ThreadsShardsAndInterruptionsGiveTheSameRows) {
     std::vector<Row> rows = run(laid, options);
     EXPECT_GE(rows.size(), 7u);
     EXPECT_LT(rows.size(), 12u);
-    std::set<std::string> done;
-    for (const Row& row : rows) done.insert(row.key);
+    std::set<std::string> keys;
+    for (const Row& row : rows) keys.insert(row.key);
+    std::set<RunIndex> done;
+    for (std::size_t w = 0; w < laid.worlds.size(); ++w)
+        for (std::size_t r = 0; r < laid.runsOf(laid.worlds[w]).size(); ++r)
+            if (keys.count(laid.keyOf(laid.worlds[w], laid.runsOf(laid.worlds[w])[r]))) done.insert({w, r});
     const auto rest = run(laid, unitsOf(laid, done, {}));
     EXPECT_EQ(rows.size() + rest.size(), 24u);
     rows.insert(rows.end(), rest.begin(), rest.end());
@@ -137,8 +141,9 @@ TEST_F(RunnerTest, AWorldInMemoryGivesTheSameRunAsItsRawlog) {
     const Truth truth = readTruth(truthFolderOf(file));
     for (std::size_t r = 0; r < 2; ++r) {
         run::RunRequest request;
-        request.config = laid.configs[laid.worlds[0].runs[r].config].config;
-        request.config.set("run", "seed", std::to_string(laid.worlds[0].runs[r].estimator_seed));
+        const RunPlan& one = laid.runsOf(laid.worlds[0])[r];
+        request.config = laid.configs[one.config].config;
+        request.config.set("run", "seed", std::to_string(laid.estimatorSeedOf(laid.worlds[0], one)));
         request.log_file = file;
         request.out_folder = folder.path("out");
         request.truth = &truth;
@@ -198,6 +203,26 @@ TEST_F(RunnerTest, ReasonsNameNeitherTheWorldNorTheLogsFolder) {
     EXPECT_THAT(rows[0].reason, testing::StartsWith("cut.rawlog: "));
     EXPECT_EQ(rows[1].status, "failed");
     EXPECT_THAT(rows[1].reason, testing::StartsWith("ekf_slamot had no use"));
+}
+
+TEST_F(RunnerTest, MemoryThatRunsShortEndsTheStudyWithTheRowsSoFar) {
+    const PluginRegistry with_bad = [] {
+        std::vector<std::string> folders = PluginRegistry::defaultFolders();
+        folders.push_back(std::string(SLAMOT_BAD_PLUGINS) + "/out_of_memory");
+        return PluginRegistry::discover(folders);
+    }();
+    const StudyFile study = load(
+        "[study]\nreplicates = 2\n[scenario.s]\nfile = field.ini\n[config.good]\nfile = ekf.ini\n"
+        "[config.greedy]\nfile = ekf.ini\nrun.estimator = out_of_memory\n");
+    const Plan laid = layOut(study, {}, with_bad);
+    for (const int threads : {1, 2}) {
+        RunnerOptions options;
+        options.threads = threads;
+        EXPECT_THROW(runStudy(laid, unitsOf(laid, {}, {}), with_bad, options,
+                              [](const Row& row) { ADD_FAILURE() << row.variant << ": " << row.status; }),
+                     std::bad_alloc)
+            << threads;
+    }
 }
 
 TEST_F(RunnerTest, FilesInTheWayEndTheStudyInsteadOfBeingRows) {

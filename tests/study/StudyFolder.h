@@ -68,7 +68,13 @@ class StudyFolder : public testing::Test {
     static std::set<std::string> keysOf(const Plan& plan) {
         std::set<std::string> keys;
         for (const WorldPlan& world : plan.worlds)
-            for (const RunPlan& one : world.runs) keys.insert(one.key);
+            for (const RunPlan& one : plan.runsOf(world)) keys.insert(plan.keyOf(world, one));
+        return keys;
+    }
+    static std::set<std::string> keysOf(const Plan& plan, const std::set<RunIndex>& runs) {
+        std::set<std::string> keys;
+        for (const auto& [w, r] : runs)
+            keys.insert(plan.keyOf(plan.worlds[w], plan.runsOf(plan.worlds[w])[r]));
         return keys;
     }
 };

@@ -1,6 +1,8 @@
 """`slamot study`: the same rows however they came to be; shards, kills, merges, MPI ranks, GNU parallel, mistakes."""
 import os
 import pathlib
+import re
+import resource
 import shutil
 import signal
 import sqlite3
@@ -318,6 +320,68 @@ class Study(SlamotTest):
         self.study("b.db", "--short")
         self.assertEqual(self.rows("a.db"), self.rows("b.db"))
         self.assertTrue(self.path("kept/far-2/invariant/trajectory.csv").exists())
+
+    PAGE = "<!-- study small stamp -->\nold\n<!-- end -->\n"
+
+    def test_a_pages_stamp_has_the_command_that_makes_it_again(self):
+        self.write("a page.md", self.PAGE)
+        self.write("small.ini", STUDY + "[check.c]\nsource = far\nconfig = classic\nfigure = robot.position.rmse\n"
+                                        "statistic = mean\ninterval = 0, inf\nshort_interval = 0, inf\n")
+        self.study("a.db", "--short", "--check", "--threads", 2, "--fill", "a page.md")
+        command = re.search(": `(slamot study .*)`", self.path("a page.md").read_text()).group(1)
+        self.assertEqual(command, "slamot study small.ini --db a.db --short --check --fill 'a page.md'")
+        first = self.path("a page.md").read_text()
+        subprocess.run(["bash", "-c", command.replace("slamot", f"'{PROGRAM}' -q", 1)], cwd=self.folder, check=True,
+                       capture_output=True, timeout=TIMEOUT_SECONDS)
+        self.assertEqual(self.path("a page.md").read_text(), first)
+        self.study("a.db", "--replicates", 2, "--fill", "a page.md")
+        self.assertIn("--db a.db --replicates 2 --fill", self.path("a page.md").read_text())
+
+    def test_a_page_is_not_filled_from_no_rows(self):
+        self.write("page.md", self.PAGE)
+        self.study("a.db", "--no-run", "--fill", "page.md", code=2, says=["--fill: a.db has no rows of this study"])
+        self.assertEqual(self.path("page.md").read_text(), self.PAGE)
+
+    def test_options_that_contradict_each_other_are_refused(self):
+        for arguments, says in ((["--short", "--replicates", "3"], "--short and --replicates"),
+                                (["--no-run", "--shard", "1/2"], "--shard: expected without --no-run"),
+                                (["--merge", "b.db", "--shard", "1/2"], "--shard: expected without"),
+                                (["--keep", "kept", "--no-run"], "--keep: expected without"),
+                                (["--keep", "kept", "--list"], "--keep: expected without")):
+            self.study("a.db", *arguments, code=2, says=[says])
+
+    def test_keep_says_of_which_rows_nothing_was_kept(self):
+        self.study("a.db", "--short", "--shard", "1/2")
+        there = len(self.rows("a.db"))
+        kept = self.study("a.db", "--short", "--keep", "kept")
+        self.assertIn(f"--keep: nothing was kept of {there} runs whose rows were there already; the same command with "
+                      "a new --db", kept.stderr)
+        fresh = self.study("b.db", "--short", "--keep", "fresh")
+        self.assertNotIn("--keep", fresh.stderr)
+        # Done again: all is there, kept by then.
+        self.assertNotIn("--keep", self.study("b.db", "--short", "--keep", "fresh").stderr)
+
+    def test_a_full_disk_is_a_sentence_and_keeps_the_rows(self):
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+        self.study("a.db", code=2, says=["a.db: "], preexec_fn=small_files)
+        self.assertLess(len(self.rows("a.db")), RUNS)
+        self.study("a.db")
+        self.assertEqual(self.rows("a.db"), self.serial())
+
+    def test_listing_stops_at_once(self):
+        run = subprocess.Popen([PROGRAM, "study", "small.ini", "--db", "a.db", "--replicates", "1000000", "--list"],
+                               cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(run.stdout.close)
+        self.addCleanup(run.kill)
+        self.assertIn("near-1 seed", run.stdout.readline())
+        run.send_signal(signal.SIGINT)
+        output, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(stderr, "slamot: stopped\n")
+        self.assertNotIn("1000000 worlds", output)
 
     def test_mistakes_are_sentences(self):
         bad = [("study", "gone.ini", "--db", "a.db"), ("study", "small.ini", "--db", "gone/a.db"),

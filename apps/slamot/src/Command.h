@@ -6,10 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace slamot::app {
+#include "ExitCode.h"
 
-/// Exit codes scripts rely on.
-inline constexpr int exit_success = 0, exit_failed = 1, exit_bad_input = 2;
+namespace slamot::app {
 
 /// Bad usage or input that is no fault of a library call: one sentence.
 class UsageError : public std::runtime_error {

@@ -5,6 +5,7 @@
 
 #include "Command.h"
 #include "Progress.h"
+#include "SessionOptions.h"
 #include "slamot/study/Checks.h"
 #include "slamot/study/Export.h"
 #include "slamot/study/Page.h"
@@ -17,7 +18,7 @@ struct Options {
     study::SessionRequest session;
     std::string shard, keep;
     std::vector<std::string> merge;
-    int threads = 1, replicates = 0;
+    int threads = 1;
     bool list = false, check = false, no_run = false;
     std::string export_folder;
     std::vector<std::string> pages;
@@ -40,26 +41,50 @@ std::string inWords(const study::GridPoint& point) {
     return text;
 }
 
-void printPlan(const study::Plan& plan, const std::set<std::string>& done, const study::Shard& shard) {
+void printPlan(const study::Plan& plan, const std::set<study::RunIndex>& done, const study::Shard& shard) {
     std::size_t worlds = 0, runs = 0;
-    for (const study::WorldPlan& world : plan.worlds) {
+    for (std::size_t w = 0; w < plan.worlds.size(); ++w) {
+        if (interrupted()) throw std::runtime_error("stopped");
+        const study::WorldPlan& world = plan.worlds[w];
         if (!shard.has(world)) continue;
         const study::PlannedWorldKind& kind = plan.kinds[world.kind];
         fmt::print("{} seed {}{}{}\n", plan.nameOf(world), world.world_seed,
                    kind.scenario ? inWords(plan.study.scenario_grid[world.scenario_point]) : " ",
                    kind.log_file);
-        for (const study::RunPlan& run : world.runs)
-            fmt::print("  {} {}{}{}\n", run.key, plan.nameOf(run),
-                       inWords(plan.study.config_grid[run.config_point]),
-                       done.count(run.key) ? " (done)" : "");
+        const std::vector<study::RunPlan>& planned = plan.runsOf(world);
+        for (std::size_t r = 0; r < planned.size(); ++r)
+            fmt::print("  {} {}{}{}\n", plan.keyOf(world, planned[r]), plan.nameOf(planned[r]),
+                       inWords(plan.study.config_grid[planned[r].config_point]),
+                       done.count({w, r}) ? " (done)" : "");
         ++worlds;
-        runs += world.runs.size();
+        runs += planned.size();
     }
     fmt::print("{} worlds, {} runs\n", worlds, runs);
 }
 
 double secondsSince(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// A run that is not made again leaves nothing in --keep.
+void tellWhatIsNotKept(const study::Session& session, const std::string& folder,
+                       const std::vector<study::Unit>& units, const study::Shard& shard) {
+    std::set<study::RunIndex> run_now;
+    for (const study::Unit& unit : units)
+        for (const std::size_t run : unit.runs) run_now.insert({unit.world, run});
+    const study::Plan& plan = session.plan();
+    std::size_t without = 0;
+    for (const auto& [w, r] : session.done()) {
+        const study::WorldPlan& world = plan.worlds[w];
+        const std::filesystem::path kept =
+            std::filesystem::path(folder) / plan.nameOf(world) / plan.nameOf(plan.runsOf(world)[r]);
+        without += shard.has(world) && run_now.count({w, r}) == 0 && !std::filesystem::exists(kept);
+    }
+    if (without > 0)
+        fmt::print(stderr,
+                   "slamot: --keep: nothing was kept of {} runs whose rows were there already; the same "
+                   "command with a new --db runs and keeps them\n",
+                   without);
 }
 
 /// Runs what is missing; false when stopped before its end.
@@ -85,6 +110,7 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
         times = study::runStudy(session.plan(), units, registry, how,
                                 [&](const study::Row& row) { session.store().add(row); });
     }
+    if (!options.keep.empty()) tellWhatIsNotKept(session, options.keep, units, shard);
     if (!verbosity.quiet)
         fmt::print("{}\n", study::timesInWords(last, secondsSince(begin), times.runs_s, options.threads));
     return !interrupted();
@@ -92,14 +118,20 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
 
 /// The command that makes a page again.
 std::string commandOf(const Options& options, const std::string& page) {
-    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file,
-                       options.session.store_file, page);
+    std::vector<std::string> words = {"slamot", "study"};
+    for (const std::string& word : study::argumentsOf(options.session)) words.push_back(word);
+    if (options.check) words.push_back("--check");
+    words.insert(words.end(), {"--fill", page});
+    return study::shellLine(words);
 }
 
 /// What the rows say, where it was asked for; false when a check failed.
 bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
     if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
     const std::vector<study::Row> rows = session.rows();
+    if (rows.empty() && !options.pages.empty())
+        throw UsageError(fmt::format("--fill: {} has no rows of this study, expected some before pages are filled",
+                                     options.session.store_file));
     const study::Findings findings{session.plan().study, analysis, rows, &session.plan()};
     study::CheckReport checks;
     if (options.check) {
@@ -117,6 +149,10 @@ void requireOptionsThatFit(const Options& options) {
     const bool runs = !options.list && !options.no_run && options.merge.empty();
     if (options.session.retry_failed && !runs)
         throw UsageError("--retry-failed: expected without --list, --no-run and --merge, which run nothing");
+    if (!options.keep.empty() && !runs)
+        throw UsageError("--keep: expected without --list, --no-run and --merge, which run nothing");
+    if (!options.shard.empty() && (options.no_run || !options.merge.empty()))
+        throw UsageError("--shard: expected without --no-run and --merge, which run nothing");
     if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty()))
         throw UsageError(
             "--shard: expected without --check, --export and --fill, which need all rows; "
@@ -130,7 +166,7 @@ void listPlan(const Options& options, const study::Shard& shard, const PluginReg
     const std::string& file = options.session.store_file;
     printPlan(
         plan,
-        std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<std::string>(),
+        std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<study::RunIndex>(),
         shard);
 }
 
@@ -181,26 +217,11 @@ void addStudy(CLI::App& app, Action& chosen) {
         "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
         "study config/studies/consistency.ini --db consistency.db --threads 2");
     auto options = std::make_shared<Options>();
-    // An unset variable of a script: SQLite would keep the rows nowhere, and every node would run everything.
-    const CLI::Validator notEmpty(
-        [](const std::string& text) {
-            return text.empty() ? std::string("expected something, not ''") : std::string();
-        },
-        "");
-    command->add_option("study", options->session.study_file, "Study INI file (doc/studies.md)")->required();
-    command
-        ->add_option("--db", options->session.store_file,
-                     "SQLite file of the rows; what it has is not run again")
-        ->check(notEmpty)
-        ->required();
-    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts")->check(notEmpty);
+    addSessionOptions(*command, options->session);
+    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts")->check(notEmpty());
     command->add_option("--threads", options->threads, "Runs at the same time; rows do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--replicates", options->replicates, "Instead of [study] replicates")
-        ->check(CLI::Range(1, 1000000));
-    command->add_flag("--short", options->session.short_form,
-                      "As many replicates as [study] short_replicates");
     command->add_option("--merge", options->merge, "Take the rows of other files of this study; run nothing");
     command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
     command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
@@ -210,11 +231,7 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_option("--export", options->export_folder,
                         "Folder for all rows, statistics, tables and figures");
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
-    command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
-    command->add_flag("--any-build", options->session.any_build,
-                      "Keep rows that another build of the program made");
     command->callback([&chosen, options] {
-        if (options->replicates > 0) options->session.replicates = options->replicates;
         chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
     });
 }

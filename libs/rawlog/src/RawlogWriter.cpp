@@ -8,20 +8,21 @@
 
 #include "GzStream.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/rawlog/PartFile.h"
 
 namespace slamot {
 
 namespace fs = std::filesystem;
 
 struct RawlogWriter::Impl {
-    explicit Impl(const std::string& name) : file(name), part(name + ".part"), bytes(part) {}
+    explicit Impl(const std::string& name) : file(name), bytes(partOf(name)) {}
 
     void write(const mrpt::serialization::CSerializable& object) {
         auto archive = mrpt::serialization::archiveFrom(bytes);
         archive << object;
     }
 
-    std::string file, part;
+    std::string file;
     GzWriter bytes;
 };
 
@@ -52,9 +53,7 @@ void RawlogWriter::close() {
     const std::string checksum_file = impl_->file + ".sha256";
     std::error_code error;
     fs::remove(checksum_file, error);
-    fs::rename(impl_->part, impl_->file, error);
-    if (error)
-        throw LogError(fmt::format("{}: cannot be renamed from .part ({})", impl_->file, error.message()));
+    finishPart(impl_->file);
     std::ofstream out(checksum_file);
     out << sha256OfFile(impl_->file) << "  " << fs::path(impl_->file).filename().string() << '\n';
     out.close();

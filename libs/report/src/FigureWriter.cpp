@@ -8,6 +8,7 @@
 
 #include "ChildProcess.h"
 #include "SvgPaths.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/report/FigureSpec.h"
 
 namespace slamot::report {
@@ -54,21 +55,22 @@ std::string readText(const fs::path& file) {
     return text.str();
 }
 
-/// Removes a half-made file unless it was given its final name.
-class PartFile {
+/// What another program writes: removed when half made, unless it was given its final name.
+class DrawnFile {
   public:
-    explicit PartFile(const fs::path& target) : target_(target), part_(withSuffix(target, ".part")) {}
-    ~PartFile() {
+    explicit DrawnFile(const fs::path& target) : target_(target.string()), part_(partOf(target_)) {}
+    ~DrawnFile() {
         std::error_code ignored;
         fs::remove(part_, ignored);
     }
-    PartFile(const PartFile&) = delete;
-    PartFile& operator=(const PartFile&) = delete;
+    DrawnFile(const DrawnFile&) = delete;
+    DrawnFile& operator=(const DrawnFile&) = delete;
     const fs::path& path() const { return part_; }
-    void finish() const { fs::rename(part_, target_); }
+    void finish() const { finishPart(target_); }
 
   private:
-    fs::path target_, part_;
+    std::string target_;
+    fs::path part_;
 };
 
 ReportError missing(const fs::path& file, const char* what, const char* package) {
@@ -77,7 +79,7 @@ ReportError missing(const fs::path& file, const char* what, const char* package)
 }
 
 void drawSvg(const fs::path& spec, const fs::path& svg) {
-    const PartFile part(svg);
+    const DrawnFile part(svg);
     const ChildResult result =
         runChild({"node", "-e", vega_to_svg}, spec, part.path(), {{"NODE_PATH", debian_modules}});
     if (!result.started) {
@@ -94,7 +96,7 @@ void drawSvg(const fs::path& spec, const fs::path& svg) {
 }
 
 void drawPng(const fs::path& svg, const fs::path& png, double zoom) {
-    const PartFile part(png);
+    const DrawnFile part(png);
     const ChildResult result = runChild({"rsvg-convert", "--format", "png", "--unlimited",
                                          "--background-color", "white", "--zoom", fmt::format("{}", zoom)},
                                         svg, part.path());

@@ -8,7 +8,7 @@
 #include "slamot/rawlog/Conventions.h"
 #include "slamot/rawlog/GzFile.h"
 #include "slamot/run/MrptSinks.h"
-#include "slamot/run/PartFile.h"
+#include "slamot/rawlog/PartFile.h"
 
 namespace slamot::run {
 

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
 #include "slamot/rawlog/LogError.h"
+#include "slamot/run/CpuClock.h"
 
 namespace slamot::run {
 namespace {
@@ -23,9 +23,7 @@ constexpr double longest_wait = 30.0;
 
 /// CPU time [s] of this thread or, so that what an estimator's threads use counts too, of the whole process.
 double cpuSeconds(bool whole_process) {
-    timespec now{};
-    clock_gettime(whole_process ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    return whole_process ? processCpuSeconds() : threadCpuSeconds();
 }
 
 /// Adds the wall and CPU time of its life to a stage.

@@ -114,9 +114,9 @@ Divergence divergence(const Cell& cell, double diverged_above) {
         failed += hasFailed(*row);
         if (!hasFailed(*row) && !hasTruth(*row) && std::isnan(rmse)) continue;
         ++known;
-        diverged += hasFailed(*row) || !std::isfinite(rmse) || rmse > diverged_above;
+        diverged += !hasFailed(*row) && (!std::isfinite(rmse) || rmse > diverged_above);
     }
-    return {rateOf(diverged, known), failed};
+    return {failed, diverged, rateOf(failed + diverged, known)};
 }
 
 eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const std::string& name) {

@@ -6,19 +6,62 @@
 #include <set>
 
 #include "AnalysisReader.h"
+#include "FigureNames.h"
 
 namespace slamot::study {
 namespace {
 
-/// From SI units and radians.
-const std::vector<std::pair<std::string, DisplayUnit>> unit_names = {{"deg", {"deg", 57.295779513082320877}},
-                                                                     {"mrad", {"mrad", 1e3}},
-                                                                     {"mm", {"mm", 1e3}},
-                                                                     {"cm", {"cm", 100}},
-                                                                     {"km", {"km", 1e-3}},
-                                                                     {"ms", {"ms", 1e3}},
-                                                                     {"us", {"us", 1e6}},
-                                                                     {"%", {"%", 100}}};
+struct NamedUnit {
+    std::string name;
+    Dimension dimension;
+    double factor;  ///< from SI units and radians
+};
+const std::vector<NamedUnit> unit_names = {
+    {"deg", Dimension::angle, 57.295779513082320877},
+    {"mrad", Dimension::angle, 1e3},
+    {"rad", Dimension::angle, 1},
+    {"mm", Dimension::length, 1e3},
+    {"cm", Dimension::length, 100},
+    {"m", Dimension::length, 1},
+    {"km", Dimension::length, 1e-3},
+    {"us", Dimension::time, 1e6},
+    {"ms", Dimension::time, 1e3},
+    {"s", Dimension::time, 1},
+    {"%", Dimension::part, 100},
+};
+
+std::string inWords(Dimension dimension) {
+    switch (dimension) {
+        case Dimension::length:
+            return "a length";
+        case Dimension::angle:
+            return "an angle";
+        case Dimension::time:
+            return "a time";
+        case Dimension::part:
+            return "a part of a whole";
+        case Dimension::other:
+            break;
+    }
+    return "a number";
+}
+
+/// Throws ConfigError for a unit of something else.
+DisplayUnit displayUnit(const std::string& figure, const Config::Entry& entry, const std::string& section) {
+    std::vector<std::string> known;
+    for (const NamedUnit& unit : unit_names) known.push_back(unit.name);
+    requireWord(entry, section, entry.value, known, "unit");
+    const FigureUnit of = unitOf(figure);
+    std::vector<std::string> fitting;
+    for (const NamedUnit& unit : unit_names) {
+        if (unit.dimension != of.dimension) continue;
+        if (unit.name == entry.value) return {unit.name, unit.factor * of.si};
+        fitting.push_back(unit.name);
+    }
+    refuse(entry, section,
+           fmt::format("{} = '{}', but it is {}, expected {}", figure, entry.value, inWords(of.dimension),
+                       fitting.empty() ? "no unit for it" : fmt::format("{}", fmt::join(fitting, " | "))));
+}
 
 /// Everything the file's tables, figures and checks show.
 std::vector<std::string> shownNames(const Analysis& analysis) {
@@ -43,13 +86,7 @@ void readUnits(const Config& config, Analysis& analysis) {
     const std::string section = "units";
     for (const auto& [figure, entry] : config.section(section)) {
         requireWord(entry, section, figure, shownNames(analysis), "figure of a table, figure or check");
-        DisplayUnit& unit = analysis.units[figure];
-        std::vector<std::string> known;
-        for (const auto& [name, value] : unit_names) {
-            known.push_back(name);
-            if (name == entry.value) unit = value;
-        }
-        requireWord(entry, section, entry.value, known, "unit");
+        analysis.units[figure] = displayUnit(figure, entry, section);
     }
 }
 

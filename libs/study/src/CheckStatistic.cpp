@@ -23,8 +23,8 @@ const std::vector<CheckStatistic>& checkStatistics() {
         {"inside", "steps in the band of {}", false, OfSeries([](C c) { return c.inside; })},
         {"above", "steps above the band of {}", false, OfSeries([](C c) { return c.above; })},
         {"below", "steps below the band of {}", false, OfSeries([](C c) { return c.below; })},
-        {"rate", "part that diverged", false,
-         OfDivergence([](const Divergence& d) { return d.diverged.rate; })}};
+        {"rate", "part that failed or diverged", false,
+         OfDivergence([](const Divergence& d) { return d.lost.rate; })}};
     return all;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <variant>
 
 #include "CheckStatistic.h"
@@ -24,24 +23,33 @@ struct PlannedCell {
     std::size_t planned = 0;
 };
 
-PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*>& by_key,
-                        const CheckSpec& check, const std::string& variant) {
+/// Rows are found by what they are called; those of replicates that are not planned do not count.
+PlannedCell plannedCell(const Plan& plan, const std::vector<Row>& rows, const CheckSpec& check,
+                        const std::string& variant) {
     PlannedCell result;
     result.cell = {check.source, variant, check.scenario_point, check.config_point, {}};
     const StudyFile& study = plan.study;
+    Row called;
+    std::vector<int> replicates;
     for (const WorldPlan& world : plan.worlds) {
         if (plan.sourceOf(world).name != check.source ||
             study.scenario_grid[world.scenario_point] != check.scenario_point)
             continue;
-        for (const RunPlan& run : world.runs) {
+        for (const RunPlan& run : plan.runsOf(world)) {
             if (plan.variantOf(run).name != variant ||
                 study.config_grid[run.config_point] != check.config_point)
                 continue;
-            ++result.planned;
-            if (const auto found = by_key.find(run.key); found != by_key.end())
-                result.cell.rows.push_back(found->second);
+            if (replicates.empty()) setLabels(called, plan, world, run);
+            replicates.push_back(world.replicate);
         }
     }
+    std::sort(replicates.begin(), replicates.end());
+    result.planned = replicates.size();
+    for (const Row& row : rows)
+        if (row.source == called.source && row.variant == called.variant &&
+            row.scenario_point == called.scenario_point && row.config_point == called.config_point &&
+            std::binary_search(replicates.begin(), replicates.end(), row.replicate))
+            result.cell.rows.push_back(&row);
     return result;
 }
 
@@ -141,9 +149,6 @@ bool CheckReport::passed() const {
 
 CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows,
                       bool short_form) {
-    std::map<std::string, const Row*> by_key;
-    for (const Row& row : rows) by_key.emplace(row.key, &row);
-
     CheckReport report;
     for (const CheckSpec& check : analysis.checks) {
         CheckResult& result = report.results.emplace_back();
@@ -158,12 +163,12 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
         if (short_form) result.interval = *check.short_interval;
 
         result.state = CheckState::failed;
-        const PlannedCell planned = plannedCell(plan, by_key, check, check.config);
+        const PlannedCell planned = plannedCell(plan, rows, check, check.config);
         Judgement judgement = judge(planned, check, plan);
         PlannedCell against;
         result.reason = judgement.words;
         if (!check.against.empty() && judgement.possible) {
-            against = plannedCell(plan, by_key, check, check.against);
+            against = plannedCell(plan, rows, check, check.against);
             judgement = judge(against, check, plan);
             if (!judgement.possible || result.reason.empty())
                 result.reason = judgement.words;

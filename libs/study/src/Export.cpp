@@ -6,11 +6,12 @@
 
 #include "CostFields.h"
 #include "CsvLine.h"
+#include "ExportFolder.h"
 #include "Selected.h"
 #include "StatisticFields.h"
 #include "slamot/report/Figure.h"
 #include "slamot/report/FigureWriter.h"
-#include "slamot/run/PartFile.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/study/Figures.h"
 
 namespace slamot::study {
@@ -47,7 +48,7 @@ class CellCsv {
     void close() { file_.close(); }
 
   private:
-    run::PartFile file_;
+    PartFile file_;
     Words scenario_, config_;
 };
 
@@ -138,8 +139,8 @@ class Exporter {
             const Divergence d = divergence(cell, study_.parameters.diverged_above);
             csv.line(cell,
                      {std::to_string(cell.rows.size()), std::to_string(d.failed),
-                      std::to_string(d.diverged.of), std::to_string(d.diverged.count),
-                      csvNumber(d.diverged.rate), csvNumber(d.diverged.low), csvNumber(d.diverged.high)});
+                      std::to_string(d.lost.of), std::to_string(d.diverged), csvNumber(d.lost.rate),
+                      csvNumber(d.lost.low), csvNumber(d.lost.high)});
         }
         csv.close();
     }
@@ -162,7 +163,7 @@ class Exporter {
 
     /// Over all sources, and over each alone, among the configs that run on all of them.
     void ranks() const {
-        run::PartFile file((folder_ / "ranks.csv").string());
+        PartFile file((folder_ / "ranks.csv").string());
         file.write(csvLine(Words{"sources", "figure", "config"} + statistic_columns));
         std::vector<std::pair<std::string, Words>> groups = {{"all", all_.sources}};
         for (const std::string& source : all_.sources) groups.push_back({source, {source}});
@@ -199,7 +200,7 @@ class Exporter {
                                          [&](const std::string& source) { return on.count(source) > 0; });
     }
     static void write(const fs::path& path, const std::string& text) {
-        run::PartFile file(path.string());
+        PartFile file(path.string());
         file.write(text);
         file.close();
     }
@@ -212,9 +213,19 @@ class Exporter {
     Words figures_;
 };
 
+std::vector<fs::path> filesOf(const Analysis& analysis) {
+    std::vector<fs::path> files = {"rows.csv",       "cells.csv",       "paired.csv",
+                                   "divergence.csv", "consistency.csv", "ranks.csv"};
+    for (const TableSpec& table : analysis.tables)
+        for (const char* suffix : {".md", ".csv"}) files.push_back(fs::path("tables") / (table.name + suffix));
+    for (const PlotSpec& plot : analysis.plots) files.push_back(fs::path("figures") / (plot.name + ".svg"));
+    return files;
+}
+
 }  // namespace
 
 void exportStudy(const Findings& findings, const std::string& folder) {
+    replaceExport(folder, findings.study.name, filesOf(findings.analysis));
     std::error_code error;  // PartFile says what is wrong when a file cannot be made
     fs::create_directories(fs::path(folder) / "tables", error);
     const Exporter exporter(findings, folder);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "CostFields.h"
+#include "Words.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/eval/Metrics.h"
 #include "slamot/run/Summary.h"
@@ -56,7 +57,41 @@ const std::vector<std::string>& names() {
     return all;
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Costs end in their unit or have it before the statistic: cost.wall_s, cost.step_ms_p99.
+FigureUnit unitOfCost(const std::string& cost) {
+    const std::vector<std::string> words = split(cost, '_');
+    if (contains(words, "ms")) return {Dimension::time, 1e-3};
+    if (contains(words, "s")) return {Dimension::time, 1};
+    return {};
+}
+
+FigureUnit unitOfSeries(const std::string& series) {
+    if (series == "robot_error" || series == "target_error") return {Dimension::length, 1};
+    if (series == "heading_error") return {Dimension::angle, 1};
+    if (series.rfind("p_", 0) == 0) return {Dimension::part, 1};
+    return {};
+}
+
 }  // namespace
+
+FigureUnit unitOf(const std::string& figure) {
+    const std::vector<std::string> words = split(figure, '.');
+    if (words.size() == 1) return unitOfSeries(figure);
+    if (words[0] == "cost") return unitOfCost(words[1]);
+    const std::string last = words.back(), of = words[words.size() - 2];
+    if (last == "inside" || last == "coverage") return {Dimension::part, 1};
+    if (contains({"rmse", "mean", "median", "maximum", "final"}, last)) {
+        if (contains({"position", "relative_position", "x", "y"}, of)) return {Dimension::length, 1};
+        if (of == "heading") return {Dimension::angle, 1};
+    }
+    if (of == "T_truth_estimate") return {last == "2" ? Dimension::angle : Dimension::length, 1};
+    if (of == "ospa" || (of == "gospa" && last == "total")) return {Dimension::length, 1};
+    return {};
+}
 
 bool isFigure(const std::string& name) {
     // Targets and sensors have the names the log gives them.

@@ -14,6 +14,7 @@
 #include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/Importer.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/study/Build.h"
 
 namespace slamot::study {
@@ -70,19 +71,21 @@ fs::path imported(const Importer& importer, const fs::path& data, const Source& 
     const std::string made_from =
         digestOf({importer.format, fs::absolute(data).string(), digestOfFiles(data), buildOf({})});
     const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, made_from.substr(0, 12));
+    // Never half-made, and perhaps in a folder where nothing may be written.
+    if (fs::is_directory(out)) return out;
     std::error_code error;
     fs::create_directories(work_folder, error);
     if (error) throw LogError(fmt::format("{}: cannot be made ({})", work_folder, error.message()));
     const FileLock lock(out.string() + ".lock");
     if (fs::is_directory(out)) return out;
     // A killed import leaves its unfinished folder, which never has the final name.
-    const fs::path unfinished = out.string() + ".part";
+    const fs::path unfinished = partOf(out.string());
     fs::remove_all(unfinished);
     fs::create_directories(unfinished);
     // An importer of a single log writes that file, one of several writes a folder.
     const bool single = source.log->files.find_first_of("*?[") == std::string::npos;
     importer.run(data.string(), (single ? unfinished / source.log->files : unfinished).string(), {});
-    fs::rename(unfinished, out);
+    finishPart(out.string());
     return out;
 }
 

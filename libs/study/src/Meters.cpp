@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <ctime>
 #include <fstream>
 #include <limits>
 
@@ -20,12 +19,6 @@ double statusMegabytes(const std::string& name) {
 }
 
 }  // namespace
-
-double threadCpuSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void MemoryMeter::start() {
     malloc_trim(0);

@@ -4,9 +4,6 @@
 
 namespace slamot::study {
 
-/// CPU time of the calling thread [s]; std::clock() counts all threads.
-double threadCpuSeconds();
-
 /// Most memory that the process takes beyond what it had at `start`. Only one at a time means anything.
 class MemoryMeter {
   public:

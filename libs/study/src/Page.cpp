@@ -8,16 +8,18 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <thread>
 #include <vector>
 
+#include "MarkdownText.h"
 #include "SectionReader.h"
 #include "slamot/core/Version.h"
 #include "slamot/report/Figure.h"
 #include "slamot/report/FigureWriter.h"
-#include "slamot/run/PartFile.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/study/Figures.h"
 
 namespace slamot::study {
@@ -33,8 +35,9 @@ std::string processorName() {
     return "unknown processor";
 }
 
+/// As they are: those of Windows end with a carriage return.
 std::vector<std::string> linesOf(const std::string& file) {
-    std::ifstream in(file);
+    std::ifstream in(file, std::ios::binary);
     if (!in) throw ConfigError(fmt::format("{}: the page cannot be read", file));
     std::vector<std::string> lines;
     for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -62,12 +65,38 @@ std::vector<std::string> sourcesWithoutWorld(const Plan& plan) {
     return without;
 }
 
-/// The words of `<!-- study NAME ... -->`; empty for any other line.
-std::vector<std::string> wordsOfMark(const std::string& line) {
+/// "NAME table TABLE" of `<!-- study NAME table TABLE -->`, words one blank apart; empty for any other line.
+std::string markOf(const std::string& line) {
     std::istringstream in(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
     if (words.size() < 4 || words[0] != "<!--" || words[1] != "study" || words.back() != "-->") return {};
-    return {words.begin() + 2, words.end() - 1};
+    return fmt::format("{}", fmt::join(words.begin() + 2, words.end() - 1, " "));
+}
+
+/// The words of a mark behind the study's name, which may hold blanks; nothing where it is another study's.
+std::optional<std::vector<std::string>> wordsBehind(const std::string& study, const std::string& mark) {
+    if (mark.rfind(study, 0) != 0) return std::nullopt;
+    if (mark.size() > study.size() && mark[study.size()] != ' ') return std::nullopt;
+    std::istringstream in(mark.substr(study.size()));
+    return std::vector<std::string>{std::istream_iterator<std::string>(in), {}};
+}
+
+/// A file's name as the target of a Markdown link, which ends at a blank.
+std::string linkTarget(const std::string& name) {
+    std::string target;
+    for (const char c : name)
+        if (std::string(" ()<>%").find(c) != std::string::npos)
+            target += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        else
+            target += c;
+    return target;
+}
+
+std::string withLineEndsOf(const std::string& line, const std::string& content) {
+    if (line.empty() || line.back() != '\r') return content;
+    std::string text;
+    for (const char c : content) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    return text;
 }
 
 /// Makes the content of one mark; figures wait until the whole page is known to be good.
@@ -86,7 +115,8 @@ class Filler {
             const PlotSpec& spec = analysis.plot(words[1]);
             const std::string stem = page_.stem().string() + "_" + spec.name;
             drawings_.push_back({&spec, page_.parent_path() / stem});
-            return fmt::format("![{}]({}.svg)\n", spec.title.empty() ? spec.name : spec.title, stem);
+            return fmt::format("![{}]({}.svg)\n", markdownText(spec.title.empty() ? spec.name : spec.title),
+                               linkTarget(stem));
         }
         if (words == std::vector<std::string>{"stamp"}) return stampLine(provenance_, findings_) + "\n";
         if (words == std::vector<std::string>{"checks"} && checks_) return toMarkdown(checkTable(*checks_));
@@ -133,7 +163,9 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
         remarks.push_back(fmt::format("no runs of: {}", fmt::join(sourcesWithoutWorld(*plan), ", ")));
     if (!remarks.empty()) line += fmt::format(" ({})", fmt::join(remarks, "; "));
     if (hosts.size() > 1) line += fmt::format(" on {} machines", hosts.size());
-    return line + fmt::format(": `{}`", p.command);
+    // Backticks within code need a longer fence.
+    const char* fence = p.command.find('`') == std::string::npos ? "`" : "``";
+    return line + fmt::format(": {0}{1}{0}", fence, p.command);
 }
 
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
@@ -144,19 +176,20 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
     bool any = false;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         text += lines[i] + '\n';
-        std::vector<std::string> words = wordsOfMark(lines[i]);
-        if (words.empty() || words.front() != findings.study.name) continue;
+        const auto words = wordsBehind(findings.study.name, markOf(lines[i]));
+        if (!words) continue;
         any = true;
         const auto fail = [&](const std::string& problem) {
             throw ConfigError(fmt::format("{}:{}: {}", page, i + 1, problem));
         };
         std::size_t end = i + 1;
-        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && wordsOfMark(lines[end]).empty())
+        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && markOf(lines[end]).empty())
             ++end;
-        if (end == lines.size() || !wordsOfMark(lines[end]).empty())
-            fail(fmt::format("'{}' has no end, expected <!-- end --> before the next mark", lines[i]));
+        if (end == lines.size() || !markOf(lines[end]).empty())
+            fail(fmt::format("'{}' has no end, expected <!-- end --> before the next mark",
+                             trimmed(lines[i])));
         try {
-            text += filler.content({words.begin() + 1, words.end()});
+            text += withLineEndsOf(lines[i], filler.content(*words));
         } catch (const ConfigError& error) {
             fail(error.what());
         }
@@ -167,7 +200,7 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
             fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
                         findings.study.name, findings.study.name));
     filler.draw();
-    run::PartFile file(page);
+    PartFile file(page);
     file.write(text);
     file.close();
 }

@@ -111,31 +111,28 @@ std::vector<PlannedWorldKind> logKinds(const StudyFile& study, std::size_t sourc
     return kinds;
 }
 
-WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate) {
-    const StudyFile& study = plan.study;
-    WorldPlan world;
-    world.source = plan.kinds[kind].source;
-    world.scenario_point = plan.kinds[kind].scenario_point;
-    const Source& source = study.sources[world.source];
-    world.kind = kind;
-    world.replicate = replicate;
-    const std::uint64_t source_seed = derivedSeed(study.parameters.seed, bitsOf(digestOf({source.name})));
-    world.world_seed = derivedSeed(source_seed, static_cast<std::uint64_t>(replicate));
+std::vector<RunPlan> runsIn(const Plan& plan, std::size_t source) {
+    std::vector<RunPlan> runs;
     for (std::size_t c = 0; c < plan.configs.size(); ++c) {
         const PlannedConfig& config = plan.configs[c];
-        if (config.source.value_or(world.source) != world.source ||
-            !runsOn(study.variants[config.variant], source))
-            continue;
-        RunPlan run;
-        run.variant = config.variant;
-        run.config_point = config.config_point;
-        run.config = c;
-        run.estimator_seed = derivedSeed(world.world_seed, bitsOf(config.digest));
-        run.key = digestOf({plan.kinds[kind].digest, std::to_string(world.world_seed),
-                            study.variants[config.variant].name, config.digest,
-                            fmt::format("{}", fmt::join(study.parameters.series, ",")), version});
-        world.runs.push_back(std::move(run));
+        if (config.source.value_or(source) == source &&
+            runsOn(plan.study.variants[config.variant], plan.study.sources[source]))
+            runs.push_back({config.variant, config.config_point, c});
     }
+    return runs;
+}
+
+std::uint64_t sourceSeed(const StudyFile& study, std::size_t source) {
+    return derivedSeed(study.parameters.seed, bitsOf(digestOf({study.sources[source].name})));
+}
+
+WorldPlan worldOf(const Plan& plan, std::size_t kind, int replicate, std::uint64_t source_seed) {
+    WorldPlan world;
+    world.source = static_cast<std::uint32_t>(plan.kinds[kind].source);
+    world.scenario_point = static_cast<std::uint32_t>(plan.kinds[kind].scenario_point);
+    world.kind = static_cast<std::uint32_t>(kind);
+    world.replicate = replicate;
+    world.world_seed = derivedSeed(source_seed, static_cast<std::uint64_t>(replicate));
     return world;
 }
 
@@ -154,15 +151,18 @@ auto inFile(const std::string& name, const Function& function) {
 
 std::size_t Plan::runCount() const {
     std::size_t count = 0;
-    for (const WorldPlan& world : worlds) count += world.runs.size();
+    for (const WorldPlan& world : worlds) count += runsOf(world).size();
     return count;
 }
 
-std::set<std::string> Plan::keys() const {
-    std::set<std::string> all;
-    for (const WorldPlan& world : worlds)
-        for (const RunPlan& run : world.runs) all.insert(run.key);
-    return all;
+std::string Plan::keyOf(const WorldPlan& world, const RunPlan& run) const {
+    return digestOf({kinds[world.kind].digest, std::to_string(world.world_seed), variantOf(run).name,
+                     configs[run.config].digest,
+                     fmt::format("{}", fmt::join(study.parameters.series, ",")), version});
+}
+
+std::uint64_t Plan::estimatorSeedOf(const WorldPlan& world, const RunPlan& run) const {
+    return derivedSeed(world.world_seed, bitsOf(configs[run.config].digest));
 }
 
 std::string Plan::nameOf(const WorldPlan& world) const {
@@ -195,6 +195,7 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
              inFile(fmt::format("{}: [scenario.{}]", file.path, file.sources[source].name),
                     [&] { return scenarioKinds(file, source); })) {
             scenario_kinds.push_back(plan.kinds.size());
+            kind.runs = runsIn(plan, source);
             plan.kinds.push_back(std::move(kind));
         }
     }
@@ -204,14 +205,21 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
         if (!found.why_none.empty()) plan.skipped.push_back(found.why_none);
         int replicate = 0;
         for (PlannedWorldKind& kind : logKinds(file, source, found.files)) {
+            kind.runs = runsIn(plan, source);
             plan.kinds.push_back(std::move(kind));
-            plan.worlds.push_back(worldOf(plan, plan.kinds.size() - 1, ++replicate));
+            plan.worlds.push_back(
+                worldOf(plan, plan.kinds.size() - 1, ++replicate, sourceSeed(file, source)));
         }
     }
     const int replicates = request.replicates.value_or(request.short_form ? file.parameters.short_replicates
                                                                           : file.parameters.replicates);
+    std::vector<std::uint64_t> seeds;
+    for (const std::size_t kind : scenario_kinds)
+        seeds.push_back(sourceSeed(file, plan.kinds[kind].source));
+    plan.worlds.reserve(plan.worlds.size() + scenario_kinds.size() * static_cast<std::size_t>(replicates));
     for (int replicate = 1; replicate <= replicates; ++replicate)
-        for (const std::size_t kind : scenario_kinds) plan.worlds.push_back(worldOf(plan, kind, replicate));
+        for (std::size_t i = 0; i < scenario_kinds.size(); ++i)
+            plan.worlds.push_back(worldOf(plan, scenario_kinds[i], replicate, seeds[i]));
     if (plan.runCount() == 0)
         throw ConfigError(fmt::format("{}: nothing remains to run{}{}", file.path,
                                       plan.skipped.empty() ? "" : "; ", fmt::join(plan.skipped, "; ")));

@@ -18,6 +18,7 @@
 #include "slamot/core/plugin/ErrorText.h"
 #include "slamot/core/plugin/Estimator.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/run/CpuClock.h"
 #include "slamot/run/OutputFolder.h"
 #include "slamot/run/Run.h"
 #include "slamot/study/Runner.h"
@@ -44,10 +45,10 @@ void flatten(const nlohmann::json& json, const std::string& name, std::map<std::
 
 Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
     Row row;
-    row.key = run.key;
+    row.key = plan.keyOf(world, run);
     setLabels(row, plan, world, run);
     row.world_seed = world.world_seed;
-    row.estimator_seed = run.estimator_seed;
+    row.estimator_seed = plan.estimatorSeedOf(world, run);
     row.build = plan.configs[run.config].build;
     row.cost.host = hostName();
     return row;
@@ -129,7 +130,7 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
                        const std::string& folder, const PluginRegistry& registry,
                        const UnitOptions& options) {
     Config config = plan.configs[run.config].config;
-    config.set("run", "seed", std::to_string(run.estimator_seed));
+    config.set("run", "seed", std::to_string(row.estimator_seed));
     MemoryMeter memory;
     if (options.measure_memory) memory.start();
     const run::AssembledRun assembled = run::assembleRun(config, registry);
@@ -149,7 +150,7 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
         for (run::Sink* sink : output->sinks()) checked.push_back(std::make_unique<CheckedSink>(*sink));
         for (const auto& sink : checked) input.sinks.push_back(sink.get());
     }
-    const double cpu_begin = threadCpuSeconds();
+    const double cpu_begin = run::threadCpuSeconds();
     run::RunResult result;
     try {
         result = run::runSource(assembled, input);
@@ -158,7 +159,7 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
         row.reason = world.withoutPlace(sentenceOfFailure());
         return run::RunStatus::failed;
     }
-    row.cost.cpu_s = threadCpuSeconds() - cpu_begin;
+    row.cost.cpu_s = run::threadCpuSeconds() - cpu_begin;
     if (options.measure_memory) row.cost.memory_mb = memory.most();
     if (output) output->writeSummary(result.summary);
     fill(row, result, plan.study.parameters.series, counter, world.truth());
@@ -173,7 +174,7 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
     const auto stopped = [&] { return options.stop && options.stop->load(); };
     const WorldPlan& planned = plan.worlds[unit.world];
     std::vector<Row> rows;
-    for (const std::size_t i : unit.runs) rows.push_back(rowOf(plan, planned, planned.runs[i]));
+    for (const std::size_t i : unit.runs) rows.push_back(rowOf(plan, planned, plan.runsOf(planned)[i]));
 
     std::optional<World> world;
     try {
@@ -189,7 +190,7 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
     if (!folder.empty() && world->truth()) writeTruth(*world->truth(), folder + "/truth");
 
     for (std::size_t i = 0; i < unit.runs.size(); ++i) {
-        const RunPlan& run = planned.runs[unit.runs[i]];
+        const RunPlan& run = plan.runsOf(planned)[unit.runs[i]];
         const auto begin = std::chrono::steady_clock::now();
         Row& row = rows[i];
         row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());

@@ -1,5 +1,6 @@
 #include "slamot/study/Runner.h"
 
+#include <mrpt/rtti/CObject.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
@@ -14,17 +15,18 @@ bool Shard::has(const WorldPlan& world) const {
     return turn % static_cast<std::size_t>(count) == static_cast<std::size_t>(number - 1);
 }
 
-std::vector<Unit> unitsOf(const Plan& plan, const std::set<std::string>& done, const Shard& shard) {
+std::vector<Unit> unitsOf(const Plan& plan, const std::set<RunIndex>& done, const Shard& shard) {
     std::vector<Unit> units;
     for (std::size_t w = 0; w < plan.worlds.size(); ++w) {
         const WorldPlan& world = plan.worlds[w];
         if (!shard.has(world)) continue;
         Unit unit;
         unit.world = w;
-        for (std::size_t r = 0; r < world.runs.size(); ++r)
-            if (!done.count(world.runs[r].key)) unit.runs.push_back(r);
+        const std::size_t runs = plan.runsOf(world).size();
+        for (std::size_t r = 0; r < runs; ++r)
+            if (done.empty() || !done.count({w, r})) unit.runs.push_back(r);
         if (plan.kinds[world.kind].scenario) {
-            if (!unit.runs.empty()) units.push_back(unit);
+            if (!unit.runs.empty()) units.push_back(std::move(unit));
         } else {
             for (const std::size_t r : unit.runs) units.push_back({w, {r}});
         }
@@ -61,6 +63,10 @@ StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const Plug
         for (; next < units.size() && !stopped(); ++next)
             count(runUnit(plan, units[next], registry, unit_options));
     } else {
+        // MRPT looks its classes up without a lock while none is being registered. Those of the libraries were
+        // registered when they were loaded, those of the plugins when the study was laid out, which loads all
+        // it needs; what may be pending is done here, so that none comes while threads read logs.
+        mrpt::rtti::registerAllPendingClasses();
         namespace tbb = oneapi::tbb;
         const auto threads = static_cast<std::size_t>(options.threads);
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -19,8 +19,9 @@ int lineOf(const std::string& origin) {
 }  // namespace
 
 std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+    const char* blanks = " \t\r";
+    const auto first = text.find_first_not_of(blanks);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::vector<std::string> sectionsOf(const Config& config, const std::string& prefix) {

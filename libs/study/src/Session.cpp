@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <regex>
+
+#include "slamot/rawlog/LogError.h"
 
 namespace slamot::study {
 namespace {
@@ -13,9 +17,38 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t reasons_shown = 3;
 
+bool needsNoQuotes(unsigned char c) {
+    return std::isalnum(c) || std::string("_-+=./,:@%").find(static_cast<char>(c)) != std::string::npos;
+}
+
 }  // namespace
 
+std::vector<std::string> argumentsOf(const SessionRequest& request) {
+    std::vector<std::string> words = {request.study_file, "--db", request.store_file};
+    if (request.short_form) words.push_back("--short");
+    if (request.replicates) words.insert(words.end(), {"--replicates", std::to_string(*request.replicates)});
+    if (request.any_build) words.push_back("--any-build");
+    return words;
+}
+
+std::string shellLine(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) {
+        if (!line.empty()) line += ' ';
+        if (!word.empty() && std::all_of(word.begin(), word.end(), needsNoQuotes)) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
+}
+
 Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
+    if (request.short_form && request.replicates)
+        throw ConfigError("--short and --replicates both say how many worlds, expected one of the two");
     PlanRequest plan;
     plan.short_form = request.short_form;
     plan.replicates = request.replicates;
@@ -33,7 +66,13 @@ Session::Session(const SessionRequest& request, const PluginRegistry& registry)
 }
 
 std::vector<Unit> Session::missing(const Shard& shard) const {
-    return unitsOf(plan_, store_.done(plan_, request_.retry_failed), shard);
+    std::vector<Unit> units = unitsOf(plan_, store_.done(plan_, request_.retry_failed), shard);
+    if (store_.readOnly() && !units.empty())
+        throw LogError(
+            fmt::format("{}: runs are missing, but file or folder may not be written to, expected --no-run or "
+                        "a file that takes rows",
+                        request_.store_file));
+    return units;
 }
 
 std::vector<std::string> Session::merge(const std::vector<std::string>& files) {

@@ -1,15 +1,49 @@
 #include "Sqlite.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::study {
+namespace {
 
-Database::Database(const std::string& file) : file_(file) {
+namespace fs = std::filesystem;
+
+bool mayWrite(const fs::path& path) {
+    return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
+}
+
+/// https://www.sqlite.org/uri.html
+std::string uriOf(const std::string& file) {
+    std::string uri = "file:";
+    for (const char c : file)
+        if (c == '%' || c == '?' || c == '#')
+            uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+        else
+            uri += c;
+    if (!isReadOnly(file)) return uri + "?mode=rwc";
+    // Where nobody has the file open, there is no -wal: SQLite would want to make one even to read.
+    std::error_code none;
+    const bool in_use = fs::file_size(file + "-wal", none) > 0 && !none;
+    return uri + (in_use ? "?mode=ro" : "?immutable=1");
+}
+
+}  // namespace
+
+bool isReadOnly(const std::string& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return false;
+    return !mayWrite(file) || !mayWrite(fs::absolute(file).parent_path());
+}
+
+Database::Database(const std::string& file) : file_(file), read_only_(isReadOnly(file)) {
     sqlite3* handle = nullptr;
-    const int code =
-        sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+    const int how = read_only_ ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+    const int code = sqlite3_open_v2(uriOf(file).c_str(), &handle, how | SQLITE_OPEN_URI, nullptr);
     handle_.reset(handle);
     if (code != SQLITE_OK) fail();
     // Other programs may be writing to the same file.
@@ -86,7 +120,7 @@ void Transaction::commit() {
 }
 
 Attached::Attached(Database& database, const std::string& file) : database_(database) {
-    Statement(database, "ATTACH ? AS other").bind(1, file).step();
+    Statement(database, "ATTACH ? AS other").bind(1, uriOf(file)).step();
 }
 
 Attached::~Attached() {

@@ -31,20 +31,27 @@ class Statement {
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
+/// Whether the user may not change a file, or not make SQLite's own files beside it. One that is not there yet
+/// may be made.
+bool isReadOnly(const std::string& file);
+
 class Database {
   public:
-    /// Opens or creates. Throws LogError naming the file, as everything here does.
+    /// Opens or creates; for reading where no more is allowed. Throws LogError naming the file, as everything
+    /// here does.
     explicit Database(const std::string& file);
     void execute(const std::string& sql);
     [[noreturn]] void fail() const;
     sqlite3* handle() const { return handle_.get(); }
     const std::string& file() const { return file_; }
+    bool readOnly() const { return read_only_; }
 
   private:
     struct Close {
         void operator()(sqlite3* handle) const { sqlite3_close(handle); }
     };
     std::string file_;
+    bool read_only_;
     std::unique_ptr<sqlite3, Close> handle_;
 };
 

@@ -74,24 +74,44 @@ void requireStudy(Database& database, const std::string& name) {
             fmt::format("{}: has the rows of study '{}', expected those of '{}'", file, found_name, name));
 }
 
+/// The plan's runs among rows of the file, each with a text that the query gives beside its key. Only the
+/// worlds that have a row are looked at: keys cost time, and a plan may have millions of them.
+std::vector<std::pair<RunIndex, std::string>> runsAmong(Database& database, const Plan& plan,
+                                                        const std::string& text,
+                                                        const std::string& condition = "1") {
+    std::map<std::string, std::string> rows;
+    std::set<std::uint64_t> seeds;
+    Statement all(database,
+                  fmt::format("SELECT key, world_seed, {} FROM rows WHERE {}", text, condition));
+    while (all.step()) {
+        rows[all.text(0)] = all.text(2);
+        seeds.insert(std::stoull(all.text(1)));
+    }
+    std::vector<std::pair<RunIndex, std::string>> there;
+    if (rows.empty()) return there;
+    for (std::size_t w = 0; w < plan.worlds.size(); ++w) {
+        const WorldPlan& world = plan.worlds[w];
+        if (seeds.count(world.world_seed) == 0) continue;
+        const std::vector<RunPlan>& runs = plan.runsOf(world);
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            if (const auto row = rows.find(plan.keyOf(world, runs[r])); row != rows.end())
+                there.push_back({{w, r}, row->second});
+    }
+    return there;
+}
+
 /// Throws when rows of the plan were made by another build.
 void requireSameBuild(Database& database, const Plan& plan) {
-    std::map<std::string, std::string> builds;
-    Statement all(database, "SELECT key, build FROM rows");
-    while (all.step()) builds[all.text(0)] = all.text(1);
-    std::size_t there = 0, others = 0;
-    for (const WorldPlan& world : plan.worlds)
-        for (const RunPlan& run : world.runs) {
-            const auto found = builds.find(run.key);
-            if (found == builds.end()) continue;
-            ++there;
-            others += found->second != plan.configs[run.config].build;
-        }
+    const auto there = runsAmong(database, plan, "build");
+    const auto others = std::count_if(there.begin(), there.end(), [&](const auto& row) {
+        const auto [world, run] = row.first;
+        return row.second != plan.configs[plan.runsOf(plan.worlds[world])[run].config].build;
+    });
     if (others > 0)
         throw LogError(fmt::format(
             "{}: {} of its {} rows of this study were made by another build of the program or its "
             "plugins, expected a new file, or --any-build to keep them",
-            database.file(), others, there));
+            database.file(), others, there.size()));
 }
 
 }  // namespace
@@ -108,6 +128,7 @@ struct Store::Impl {
 
     /// Makes the tables in an empty file, and never in a database of something else.
     void open() {
+        if (database.readOnly()) return requireStudy(database, name);
         // SQLite does not wait for another program that changes the same new file to WAL.
         const FileLock lock(std::filesystem::absolute(database.file()).parent_path().string());
         Statement any(database, "SELECT count(*) FROM sqlite_master");
@@ -129,6 +150,13 @@ struct Store::Impl {
         database.execute("PRAGMA synchronous = NORMAL");
     }
 
+    void requireWritable() const {
+        if (database.readOnly())
+            throw LogError(
+                fmt::format("{}: file or folder may not be written to, expected one that takes rows",
+                            database.file()));
+    }
+
     std::optional<Row> find(const std::string& key) {
         std::optional<Row> row;
         if (select->bind(1, key).step()) row = rowOf(*select);
@@ -144,22 +172,24 @@ struct Store::Impl {
 Store::Store(const std::string& file, const StudyFile& study) : impl_(std::make_unique<Impl>(file, study)) {}
 Store::~Store() = default;
 
+bool Store::readOnly() const {
+    return impl_->database.readOnly();
+}
+
 void Store::requireBuild(const Plan& plan) const {
     requireSameBuild(impl_->database, plan);
 }
 
-std::set<std::string> Store::done(const Plan& plan, bool but_failed) const {
-    std::set<std::string> there, keys;
-    Statement all(impl_->database, "SELECT key FROM rows WHERE NOT (? AND status = 'failed')");
-    all.bind(1, static_cast<std::int64_t>(but_failed));
-    while (all.step()) there.insert(all.text(0));
-    for (const WorldPlan& world : plan.worlds)
-        for (const RunPlan& run : world.runs)
-            if (there.count(run.key)) keys.insert(run.key);
-    return keys;
+std::set<RunIndex> Store::done(const Plan& plan, bool but_failed) const {
+    std::set<RunIndex> runs;
+    for (const auto& [run, nothing] :
+         runsAmong(impl_->database, plan, "''", but_failed ? "status != 'failed'" : "1"))
+        runs.insert(run);
+    return runs;
 }
 
 void Store::add(const Row& row) {
+    impl_->requireWritable();
     Transaction transaction(impl_->database);
     if (std::optional<Row> there = impl_->find(row.key); there && there->status != "failed") {
         // What a row is called may have changed with the plan.
@@ -193,19 +223,22 @@ std::vector<Row> Store::rows(const Plan& plan) const {
         int replicate;
         const WorldPlan* world;
         const RunPlan* run;
+        std::string key;
     };
     std::vector<Wanted> wanted;
-    for (const WorldPlan& world : plan.worlds)
-        for (const RunPlan& run : world.runs)
-            wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point,
-                              world.replicate, &world, &run});
+    for (const auto& [index, key] : runsAmong(impl_->database, plan, "key")) {
+        const WorldPlan& world = plan.worlds[index.first];
+        const RunPlan& run = plan.runsOf(world)[index.second];
+        wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point, world.replicate,
+                          &world, &run, key});
+    }
     std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
         return std::tie(a.source, a.scenario_point, a.variant, a.config_point, a.replicate) <
                std::tie(b.source, b.scenario_point, b.variant, b.config_point, b.replicate);
     });
     std::vector<Row> found;
     for (const Wanted& one : wanted) {
-        std::optional<Row> row = impl_->find(one.run->key);
+        std::optional<Row> row = impl_->find(one.key);
         if (!row) continue;
         setLabels(*row, plan, *one.world, *one.run);
         found.push_back(std::move(*row));
@@ -220,6 +253,7 @@ std::size_t Store::count() const {
 }
 
 void Store::merge(const std::string& file, const Plan& plan, bool any_build) {
+    impl_->requireWritable();
     Database& database = impl_->database;
     if (!std::filesystem::is_regular_file(file))
         throw LogError(file + ": is not there, expected a file of rows to merge");

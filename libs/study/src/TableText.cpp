@@ -1,20 +1,11 @@
 #include <algorithm>
 
 #include "CsvLine.h"
+#include "MarkdownText.h"
 #include "slamot/study/Tables.h"
 
 namespace slamot::study {
 namespace {
-
-/// Markdown's cells end at '|' and at the line's end.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '|') result += '\\';
-        result += c == '\n' || c == '\r' ? ' ' : c;
-    }
-    return result;
-}
 
 /// Characters of a UTF-8 text: all bytes but those that continue one.
 std::size_t widthOf(const std::string& text) {
@@ -31,11 +22,11 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
 
 std::string toMarkdown(const Table& table) {
     std::vector<std::vector<std::string>> texts(1);
-    for (const Column& column : table.columns) texts[0].push_back(escaped(column.heading));
+    for (const Column& column : table.columns) texts[0].push_back(markdownText(column.heading));
     for (const TableLine& line : table.lines) {
         std::vector<std::string>& cells = texts.emplace_back();
         for (const Field& field : line.fields) {
-            const std::string text = escaped(field.shown);
+            const std::string text = markdownText(field.shown);
             cells.push_back(line.summary && !text.empty() ? "**" + text + "**" : text);
         }
     }

@@ -128,16 +128,15 @@ class Builder {
         addCount("runs");
         addCount("failed");
         addCount("diverged");
-        table_.columns.push_back({"rate", {"rate", "rate_low", "rate_high"}, true});
+        table_.columns.push_back({"failed or diverged", {"rate", "rate_low", "rate_high"}, true});
         for (const Cell& cell : cells_) {
             const Divergence d = study::divergence(cell, findings_.study.parameters.diverged_above);
             TableLine& line = startLine(cell);
             line.fields.push_back(countField(static_cast<int>(cell.rows.size())));
             line.fields.push_back(countField(d.failed));
-            line.fields.push_back(countField(d.diverged.count));
+            line.fields.push_back(countField(d.diverged));
             line.fields.push_back(
-                {rateText(d.diverged),
-                 {csvNumber(d.diverged.rate), csvNumber(d.diverged.low), csvNumber(d.diverged.high)}});
+                {rateText(d.lost), {csvNumber(d.lost.rate), csvNumber(d.lost.low), csvNumber(d.lost.high)}});
         }
         return table_;
     }

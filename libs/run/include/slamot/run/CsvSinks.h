@@ -2,7 +2,7 @@
 // The CSV files of an output folder, one sink each; doc/output_files.md has the columns.
 #include <optional>
 
-#include "slamot/run/PartFile.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/run/Sink.h"
 
 namespace slamot::run {

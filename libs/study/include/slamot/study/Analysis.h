@@ -60,11 +60,12 @@ struct Rate {
 };
 Rate rateOf(int count, int of);
 
-/// Rows that failed, whose robot.position.rmse is above `diverged_above`, or whose errors from truth are not
-/// finite. A row that did not fail and has no errors (no truth) says nothing and is not counted.
+/// Rows that failed, and rows that diverged: did not fail, but their robot.position.rmse is above
+/// `diverged_above` or their errors from truth are not finite. A row that did not fail and has no errors (no
+/// truth) says nothing and is not counted.
 struct Divergence {
-    Rate diverged;
-    int failed = 0;
+    int failed = 0, diverged = 0;
+    Rate lost;  ///< of both together
 };
 Divergence divergence(const Cell& cell, double diverged_above);
 

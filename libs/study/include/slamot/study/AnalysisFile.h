@@ -12,7 +12,7 @@
 
 namespace slamot::study {
 
-/// `[units]`: what a figure is shown in instead of SI and radians.
+/// `[units]`: what a figure is shown in instead of its own unit: SI, radians, for costs that of their name.
 struct DisplayUnit {
     std::string name;
     double factor = 1;

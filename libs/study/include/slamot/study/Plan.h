@@ -21,7 +21,7 @@ struct StudyParameters {
     std::uint64_t seed = 1;
     int replicates = 50;        ///< worlds drawn of each scenario
     int short_replicates = 10;  ///< of the short form
-    /// A run whose robot position RMSE exceeds this, or that failed, counts as diverged [m].
+    /// A run whose robot position RMSE exceeds this counts as diverged [m].
     double diverged_above = 10;
     std::vector<std::string> series;  ///< kept step by step, names of Series.h
 };
@@ -80,31 +80,33 @@ struct PlannedConfig {
     std::string build;   ///< buildOf the plugins it uses
 };
 
+/// One run in every world of a kind.
+struct RunPlan {
+    std::size_t variant = 0, config_point = 0;
+    std::size_t config = 0;  ///< index of Plan::configs
+};
+
 /// A scenario at a point of its grid, or one recorded log.
 struct PlannedWorldKind {
     std::size_t source = 0, scenario_point = 0;
     std::optional<Config> scenario;
     std::string log_file;
     std::string digest;  ///< SHA-256 of what the world is made from
-};
-
-/// One run of a study.
-struct RunPlan {
-    std::string key;  ///< SHA-256 of world, config, series and program version, as hex
-    std::size_t variant = 0, config_point = 0;
-    std::size_t config = 0;            ///< index of Plan::configs
-    std::uint64_t estimator_seed = 0;  ///< f(world seed, config)
-};
-
-/// The runs that share one world, which is made once: comparisons are paired by it.
-struct WorldPlan {
-    std::size_t source = 0, scenario_point = 0;
-    std::size_t kind = 0;  ///< index of Plan::kinds
-    int replicate = 1;     ///< counts from 1; of recorded logs, their number within the source
-    /// f(study seed, source's name, replicate): the same for every config and every point of the grid.
-    std::uint64_t world_seed = 0;
     std::vector<RunPlan> runs;
 };
+
+/// The runs that share one world, which is made once: comparisons are paired by it. Plans have millions of
+/// these: what all worlds of a kind share stands there, and keys are computed when they are asked for.
+struct WorldPlan {
+    std::uint32_t source = 0, scenario_point = 0;
+    std::uint32_t kind = 0;  ///< index of Plan::kinds
+    int replicate = 1;       ///< counts from 1; of recorded logs, their number within the source
+    /// f(study seed, source's name, replicate): the same for every config and every point of the grid.
+    std::uint64_t world_seed = 0;
+};
+
+/// Index of Plan::worlds and of the runs of its kind.
+using RunIndex = std::pair<std::size_t, std::size_t>;
 
 struct Plan {
     StudyFile study;
@@ -116,7 +118,11 @@ struct Plan {
     std::vector<std::string> skipped;
 
     std::size_t runCount() const;
-    std::set<std::string> keys() const;
+    const std::vector<RunPlan>& runsOf(const WorldPlan& world) const { return kinds[world.kind].runs; }
+    /// SHA-256 of world, config, series and program version, as hex.
+    std::string keyOf(const WorldPlan& world, const RunPlan& run) const;
+    /// f(world seed, config).
+    std::uint64_t estimatorSeedOf(const WorldPlan& world, const RunPlan& run) const;
     const Source& sourceOf(const WorldPlan& world) const { return study.sources[world.source]; }
     const Variant& variantOf(const RunPlan& run) const { return study.variants[run.variant]; }
     /// Words for messages and folders: `paper1-p2-17`, the second point of a grid of several, replicate 17.

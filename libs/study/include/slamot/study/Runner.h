@@ -20,13 +20,13 @@ struct Shard {
 /// What is handed out as a whole: a world and those of its runs that are wanted.
 struct Unit {
     std::size_t world = 0;          ///< index of Plan::worlds
-    std::vector<std::size_t> runs;  ///< indices of WorldPlan::runs
+    std::vector<std::size_t> runs;  ///< indices of Plan::runsOf
 };
 
 /// The shard's runs that are not in `done`, in the plan's order. A simulated world is one unit, since it is
 /// made once; the runs of a recorded log are units of their own, since there are few such worlds and reading
 /// is cheap.
-std::vector<Unit> unitsOf(const Plan& plan, const std::set<std::string>& done, const Shard& shard);
+std::vector<Unit> unitsOf(const Plan& plan, const std::set<RunIndex>& done, const Shard& shard);
 
 struct UnitOptions {
     const std::atomic<bool>* stop = nullptr;

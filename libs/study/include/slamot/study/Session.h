@@ -2,6 +2,7 @@
 // What every program that runs studies does around the runs: read, lay out, open the store, say how it went.
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,13 @@ struct SessionRequest {
     std::optional<int> replicates;
 };
 
-/// Reads the study and lays it out. Throws ConfigError, PluginError or LogError.
+/// The arguments of `slamot study` that ask for these rows.
+std::vector<std::string> argumentsOf(const SessionRequest& request);
+/// Words as one line for a shell, quoted where they need it.
+std::string shellLine(const std::vector<std::string>& words);
+
+/// Reads the study and lays it out. Throws ConfigError, also for a request that contradicts itself, PluginError
+/// or LogError.
 Plan planOf(const SessionRequest& request, const PluginRegistry& registry);
 
 class Session {
@@ -28,12 +35,14 @@ class Session {
 
     const Plan& plan() const { return plan_; }
     Store& store() { return store_; }
-    /// What of the shard is still to be run, failed runs too where they are to be run again.
+    /// What of the shard is still to be run, failed runs too where they are to be run again. Throws LogError
+    /// where there is something, but the store takes no rows.
     std::vector<Unit> missing(const Shard& shard) const;
     /// Takes the rows of other files of the study; a sentence for each that is not there. Throws LogError.
     std::vector<std::string> merge(const std::vector<std::string>& files);
-    /// Whether all of the plan's rows are there.
-    bool isComplete() const { return store_.done(plan_).size() == plan_.keys().size(); }
+    /// The plan's runs whose rows are there, failed ones too.
+    std::set<RunIndex> done() const { return store_.done(plan_); }
+    bool isComplete() const { return done().size() == plan_.runCount(); }
     /// The plan's rows that are there.
     std::vector<Row> rows() const { return store_.rows(plan_); }
 

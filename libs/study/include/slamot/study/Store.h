@@ -11,15 +11,18 @@ namespace slamot::study {
 
 class Store {
   public:
-    /// Opens or creates. Throws LogError for a file that is no study's, or another study's.
+    /// Opens or creates; for reading where file or folder may not be written to. Throws LogError for a file
+    /// that is no study's, or another study's.
     Store(const std::string& file, const StudyFile& study);
     ~Store();
+    /// Adding and merging throw LogError then.
+    bool readOnly() const;
 
     /// Throws LogError when another build of the program made rows of the plan: they may not be what this one
     /// would compute.
     void requireBuild(const Plan& plan) const;
     /// The plan's runs that are there; failed ones are not where `but_failed`.
-    std::set<std::string> done(const Plan& plan, bool but_failed = false) const;
+    std::set<RunIndex> done(const Plan& plan, bool but_failed = false) const;
     /// On disk when this returns: a kill loses nothing that was added. Replaces a failed row of the same key;
     /// throws LogError when there is any other that differs.
     void add(const Row& row);
