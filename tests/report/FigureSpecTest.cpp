@@ -208,7 +208,8 @@ TEST(FigureSpec, aSharedLegendListsEveryLabelOnceAbovePanelsWithoutOne) {
     figure.shared_legend = true;
     const json spec = figureSpec(figure);
     std::vector<std::string> labels;
-    for (const json& mark : markNamed(spec, "legend").at("marks")) {
+    const json legend = markNamed(spec, "legend");
+    for (const json& mark : legend.at("marks")) {
         if (mark.at("type") == "text") {
             labels.push_back(mark.at("encode").at("update").at("text").at("value"));
         }
@@ -223,7 +224,8 @@ std::vector<double> logarithmicTicks(double low, double high) {
     figure.panels[0].y.logarithmic = true;
     figure.panels[0].y.min = low;
     figure.panels[0].y.max = high;
-    for (const json& axis : markNamed(figureSpec(figure), "panel_0").at("axes")) {
+    const json panel = markNamed(figureSpec(figure), "panel_0");
+    for (const json& axis : panel.at("axes")) {
         if (axis.at("scale") == "y") {
             return axis.at("values").get<std::vector<double>>();
         }

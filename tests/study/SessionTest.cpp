@@ -87,7 +87,9 @@ TEST_F(SessionTest, RowsOfAnotherFolderThatMayNotBeWrittenAreMerged) {
     fill(request("shard.db"), 8);
     SessionRequest mine = request();
     std::filesystem::create_directory(folder.path("mine"));
-    if (geteuid() == 0) ASSERT_EQ(chown(folder.path("mine").c_str(), 65534, 65534), 0);
+    if (geteuid() == 0) {
+        ASSERT_EQ(chown(folder.path("mine").c_str(), 65534, 65534), 0);
+    }
     mine.store_file = folder.path("mine/a.db");
     protect("shard.db", 0555);
     const AsNobody nobody;

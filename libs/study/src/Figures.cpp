@@ -56,13 +56,13 @@ double shownLow(double low, double value, bool logarithmic) {
 /// Lines in the order of their first point, each by rising x.
 struct Curves {
     std::vector<std::string> labels;
-    std::map<std::string, std::map<double, Statistic>> points;
+    std::map<std::string, std::multimap<double, Statistic>> points;  // cells may share a measured x
     RunCount runs;
 
     void add(const std::string& label, double x, const Statistic& y) {
         if (y.count == 0 || !std::isfinite(x)) return;
         if (points.count(label) == 0) labels.push_back(label);
-        points[label][x] = y;
+        points[label].emplace(x, y);
         runs.add(y.count);
     }
 };
@@ -181,8 +181,8 @@ class Drawing {
         return panelOf(curves, spec_.parameter);
     }
 
-    /// Curves of one parameter have their points at the same places: a little apart, their intervals can be told
-    /// from each other.
+    /// Curves often have their points at the same places: a little apart, their intervals can be told from each
+    /// other.
     void spreadAlongX(Curves& curves) const {
         const auto place = [&](double x) { return spec_.logarithmic_x ? std::log(x) : x; };
         std::set<double> places;
@@ -194,12 +194,12 @@ class Drawing {
         double gap = extent;
         for (auto next = std::next(places.begin()); next != places.end(); ++next)
             gap = std::min(gap, *next - *std::prev(next));
-        const double step = std::min(0.012 * extent, 0.4 * gap / count);
+        const double step = std::min(0.016 * extent, 0.4 * gap / count);
         for (std::size_t i = 0; i < curves.labels.size(); ++i) {
             const double shift = step * (static_cast<double>(i) - (count - 1) / 2);
-            std::map<double, Statistic> shifted;
+            std::multimap<double, Statistic> shifted;
             for (const auto& [x, s] : curves.points[curves.labels[i]])
-                shifted[spec_.logarithmic_x ? x * std::exp(shift) : x + shift] = s;
+                shifted.emplace(spec_.logarithmic_x ? x * std::exp(shift) : x + shift, s);
             curves.points[curves.labels[i]] = shifted;
         }
     }
@@ -210,6 +210,7 @@ class Drawing {
         for (const Cell& cell : subject.cells)
             curves.add(labelOf(cell), shownOf(statisticOfCell(cell, spec_.figures[0])),
                        statisticOfCell(cell, spec_.figures[1]));
+        spreadAlongX(curves);
         return panelOf(curves, spec_.figures[0]);
     }
 
