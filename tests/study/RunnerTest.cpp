@@ -166,6 +166,9 @@ TEST_F(RunnerTest, RecordedLogsAreWorldsToo) {
     EXPECT_EQ(unitsOf(laid, {}, {}).size(), 4u);
     const std::vector<Row> rows = run(laid), from_simulation = run(simulated);
     ASSERT_EQ(rows.size(), 4u);
+    RunnerOptions threads;
+    threads.threads = 3;
+    EXPECT_EQ(identities(run(laid, threads)), identities(rows)) << "logs are read in several threads";
     // log_10 is the simulation's first world; neither core draws random numbers.
     EXPECT_EQ(rows[2].estimate_hash, from_simulation[0].estimate_hash);
     EXPECT_EQ(rows[3].estimate_hash, from_simulation[1].estimate_hash);

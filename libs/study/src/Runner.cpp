@@ -6,6 +6,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <mutex>
+
+#include "HandOver.h"
 
 namespace slamot::study {
 
@@ -71,17 +74,21 @@ StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const Plug
         const auto threads = static_cast<std::size_t>(options.threads);
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const auto hand_out = [&](tbb::flow_control& flow) {
+            const HandOver here;
             if (next == units.size() || stopped()) flow.stop();
             return next < units.size() ? next++ : next;
         };
+        std::mutex taking;
+        const auto run_and_take = [&](std::size_t unit) {
+            const HandOver here;
+            const std::vector<Row> rows = runUnit(plan, units[unit], registry, unit_options);
+            const std::lock_guard one_at_a_time(taking);
+            count(rows);
+        };
+        const HandOver around;
         tbb::parallel_pipeline(
-            threads,
-            tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
-                tbb::make_filter<std::size_t, std::vector<Row>>(
-                    tbb::filter_mode::parallel,
-                    [&](std::size_t unit) { return runUnit(plan, units[unit], registry, unit_options); }) &
-                tbb::make_filter<std::vector<Row>, void>(tbb::filter_mode::serial_out_of_order,
-                                                         [&](const std::vector<Row>& rows) { count(rows); }));
+            threads, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
+                         tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, run_and_take));
     }
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return {wall, count.runsSeconds()};
