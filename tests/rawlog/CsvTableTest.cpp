@@ -77,6 +77,20 @@ TEST_F(CsvTable, AShortRowIsAnErrorButABrokenOffLastLineMayEndTheTable) {
     EXPECT_THAT(messageOf([&] { whole.next(); }), AllOf(HasSubstr("b.csv:3"), HasSubstr("1 fields")));
 }
 
+TEST_F(CsvTable, TextsComeBackWhateverTheyHold) {
+    const std::vector<std::string> texts = {"", "a,b", "say \"so\"", " blanks ", "\"", ",\",\"", "plain"};
+    std::string line;
+    for (const std::string& text : texts) line += (&text == &texts.front() ? "" : ",") + csvField(text);
+    writeBytes(path("a.csv"), "0,1,2,3,4,5,6\n" + line + "\n1, \"x, y\" ,3,4,5,6,7\n");
+    CsvReader table(path("a.csv"));
+    ASSERT_TRUE(table.next());
+    for (int column = 0; column < 7; ++column)
+        EXPECT_EQ(table.text(column), texts[static_cast<std::size_t>(column)]);
+    ASSERT_TRUE(table.next());
+    EXPECT_EQ(table.text(1), "x, y");
+    EXPECT_EQ(csvField("two\r\nlines"), "two  lines") << "a row is one line";
+}
+
 TEST(CsvFields, NumbersComeBackUnchanged) {
     std::string line;
     appendField(line, 0.1 + 0.2);

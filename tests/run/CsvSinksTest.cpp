@@ -197,7 +197,7 @@ TEST_F(CsvSinksTest, ASensorsNameCannotBreakTheTable) {
     trajectory.end({});
     const eval::RunRecord read = eval::readRun(folder);
     ASSERT_EQ(read.innovations.size(), 2u);
-    EXPECT_EQ(read.innovations[0].sensor, "front_ left_and \"right\"");
+    EXPECT_EQ(read.innovations[0].sensor, "front, left and \"right\"");
     EXPECT_EQ(read.innovations[1].sensor, "movers");
 }
 

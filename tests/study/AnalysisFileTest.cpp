@@ -31,8 +31,8 @@ std::string refusal(const std::string& text) {
 
 TEST(Units, FitWhatAFigureMeasuresAndItsOwnUnit) {
     const auto factor = [](const std::string& figure, const std::string& unit) {
-        const StudyFile study = studyOf("[table.t]\nkind = means\nfigures = " + figure + "\n[units]\n" + figure +
-                                        " = " + unit + "\n");
+        const StudyFile study = studyOf("[table.t]\nkind = means\nfigures = " + figure + "\n[units]\n" +
+                                        figure + " = " + unit + "\n");
         return readAnalysis(study).factor(figure);
     };
     EXPECT_DOUBLE_EQ(factor("robot.position.rmse", "mm"), 1000);
@@ -190,8 +190,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = degrees\n",
             "'degrees' in [units] is no unit"},
-        Mistake{"[table.t]\nkind = means\nfigures = robot.position.rmse\n[units]\nrobot.position.rmse = deg\n",
-                "demo.ini:5: robot.position.rmse = 'deg', but it is a length, expected mm | cm | m | km in [units]"},
+        Mistake{
+            "[table.t]\nkind = means\nfigures = robot.position.rmse\n[units]\nrobot.position.rmse = deg\n",
+            "demo.ini:5: robot.position.rmse = 'deg', but it is a length, expected mm | cm | m | km in "
+            "[units]"},
         Mistake{"[table.t]\nkind = means\nfigures = robot.heading.rmse\n[units]\nrobot.heading.rmse = mm\n",
                 "but it is an angle, expected deg | mrad | rad"},
         Mistake{"[table.t]\nkind = means\nfigures = cost.wall_s\n[units]\ncost.wall_s = %\n",

@@ -142,8 +142,7 @@ TEST_F(Page, AStudysNameMayHoldBlanks) {
 }
 
 TEST_F(Page, LinksToFiguresOfPagesWithBlanks) {
-    const StudyFile study = studyOf(
-        "[figure.f]\nkind = bands\nseries = robot_nees\ntitle = a * b [x](y)\n");
+    const StudyFile study = studyOf("[figure.f]\nkind = bands\nseries = robot_nees\ntitle = a * b [x](y)\n");
     const Analysis analysis = readAnalysis(study);
     folder_.write("a page.md", "<!-- study demo figure f -->\n<!-- end -->\n");
     try {

@@ -41,7 +41,8 @@ TEST_F(PlanTest, ALongerStudyBeginsWithTheShorterOnesRuns) {
     const Plan two = plan(usual("3"), request);
     ASSERT_EQ(two.worlds.size(), 4u);
     for (std::size_t w = 0; w < two.worlds.size(); ++w)
-        for (std::size_t r = 0; r < 2; ++r) EXPECT_EQ(two.keyOf(two.worlds[w], two.runsOf(two.worlds[w])[r]),
+        for (std::size_t r = 0; r < 2; ++r)
+            EXPECT_EQ(two.keyOf(two.worlds[w], two.runsOf(two.worlds[w])[r]),
                       three.keyOf(three.worlds[w], three.runsOf(three.worlds[w])[r]));
     request.replicates = 1;
     EXPECT_EQ(plan(usual("3"), request).worlds.size(), 2u);
@@ -60,7 +61,8 @@ TEST_F(PlanTest, SeedsPairConfigsAndGridPointsButNotWorlds) {
     EXPECT_NE(laid.worlds[0].world_seed, laid.worlds[2].world_seed);
     EXPECT_NE(laid.worlds[0].world_seed, laid.worlds[4].world_seed);
     std::set<std::uint64_t> seeds;
-    for (const RunPlan& one : laid.runsOf(laid.worlds[0])) seeds.insert(laid.estimatorSeedOf(laid.worlds[0], one));
+    for (const RunPlan& one : laid.runsOf(laid.worlds[0]))
+        seeds.insert(laid.estimatorSeedOf(laid.worlds[0], one));
     EXPECT_EQ(seeds.size(), 4u);
     EXPECT_EQ(laid.nameOf(laid.runsOf(laid.worlds[0])[3]), "invariant-p2");
     EXPECT_EQ(laid.configs[3].config.section("ekf_slamot.target").at("noise_std").value, "0.2");
@@ -161,8 +163,8 @@ TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
     expect(begin + config + "[grid]\nnoise = 1\n", 8, "expected section.key");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | | 2\n", 8, "separated by |");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | 1\n", 8, "twice");
-    expect(begin + config + "ekf_slamot.target.noise_std = 3\n[grid]\nekf_slamot.target.noise_std = 1 | 2\n", 7,
-           "is a key of [grid] too");
+    expect(begin + config + "ekf_slamot.target.noise_std = 3\n[grid]\nekf_slamot.target.noise_std = 1 | 2\n",
+           7, "is a key of [grid] too");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | one\n", 8, "noise_std = 'one'");
     expect("[study]\n[log.l]\nfiles = *.rawlog\n" + config + "[grid.scenario]\nworld.landmarks = 1\n", 6,
            "changes nothing");

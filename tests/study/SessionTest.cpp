@@ -1,5 +1,3 @@
-#include "slamot/study/Session.h"
-
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -7,6 +5,7 @@
 
 #include "StudyFolder.h"
 #include "slamot/rawlog/LogError.h"
+#include "slamot/study/Session.h"
 #include "support/Expect.h"
 
 namespace slamot::study {
@@ -75,8 +74,9 @@ TEST_F(SessionTest, RowsThatWouldHaveToBeWrittenAreASentence) {
     const AsNobody nobody;
     Session session(wanted, registry());
     EXPECT_EQ(session.rows().size(), 7u);
-    EXPECT_THAT(test::messageOf<LogError>([&] { session.missing({}); }),
-                HasSubstr("a.db: runs are missing, but file or folder may not be written to, expected --no-run"));
+    EXPECT_THAT(
+        test::messageOf<LogError>([&] { session.missing({}); }),
+        HasSubstr("a.db: runs are missing, but file or folder may not be written to, expected --no-run"));
     EXPECT_THAT(test::messageOf<LogError>([&] { session.merge({wanted.store_file}); }),
                 HasSubstr("a.db: file or folder may not be written to"));
     EXPECT_THAT(test::messageOf<LogError>([&] { session.store().add(session.rows().front()); }),

@@ -57,7 +57,8 @@ TEST_F(StoreTest, ReplacesFailedRowsAndRefusesOthersThatDiffer) {
     again.cost.wall_s += 1, again.build = "another";
     store.add(again);  // the same but for what is no part of its identity
     EXPECT_NE(store.rows(laid).at(0).build, "another");
-    EXPECT_THAT(messageOf<LogError>([&] { store.add(failed); }), HasSubstr("differs from the one computed now"));
+    EXPECT_THAT(messageOf<LogError>([&] { store.add(failed); }),
+                HasSubstr("differs from the one computed now"));
     again.metrics["robot.position.rmse"] = std::nextafter(again.metrics.at("robot.position.rmse"), 1e9);
     EXPECT_THAT(messageOf<LogError>([&] { store.add(again); }), HasSubstr("a.db"));
     EXPECT_EQ(identities(store.rows(laid)), identities({computed[0]}));
@@ -173,7 +174,8 @@ TEST_F(StoreTest, MergingPrefersWhatDidNotFail) {
 
 TEST_F(StoreTest, FilesOfSomethingElseAreRefusedUnchanged) {
     const std::string junk = folder.write("junk.db", std::string(5000, 'x'));
-    EXPECT_THAT(messageOf<LogError>([&] { open("junk.db"); }), HasSubstr("expected a file of rows of a study"));
+    EXPECT_THAT(messageOf<LogError>([&] { open("junk.db"); }),
+                HasSubstr("expected a file of rows of a study"));
     EXPECT_EQ(folder.read("junk.db"), std::string(5000, 'x'));
     fill("a.db", 0, 1);
     const StudyFile other = load(usual("2"), "other");

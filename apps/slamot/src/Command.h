@@ -12,7 +12,7 @@ namespace slamot::app {
 
 /// Bad usage or input that is no fault of a library call: one sentence.
 class UsageError : public std::runtime_error {
-   public:
+  public:
     using std::runtime_error::runtime_error;
 };
 

@@ -130,8 +130,9 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
     const std::vector<study::Row> rows = session.rows();
     if (rows.empty() && !options.pages.empty())
-        throw UsageError(fmt::format("--fill: {} has no rows of this study, expected some before pages are filled",
-                                     options.session.store_file));
+        throw UsageError(
+            fmt::format("--fill: {} has no rows of this study, expected some before pages are filled",
+                        options.session.store_file));
     const study::Findings findings{session.plan().study, analysis, rows, &session.plan()};
     study::CheckReport checks;
     if (options.check) {
@@ -164,10 +165,10 @@ void listPlan(const Options& options, const study::Shard& shard, const PluginReg
     const study::Plan plan = study::planOf(options.session, registry);
     for (const std::string& sentence : plan.skipped) fmt::print(stderr, "slamot: {}\n", sentence);
     const std::string& file = options.session.store_file;
-    printPlan(
-        plan,
-        std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<study::RunIndex>(),
-        shard);
+    printPlan(plan,
+              std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan)
+                                            : std::set<study::RunIndex>(),
+              shard);
 }
 
 int studyJob(const Options& options, const Verbosity& verbosity) {
@@ -231,9 +232,8 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_option("--export", options->export_folder,
                         "Folder for all rows, statistics, tables and figures");
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
-    command->callback([&chosen, options] {
-        chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
-    });
+    command->callback(
+        [&chosen, options] { chosen = [options](const Verbosity& v) { return studyJob(*options, v); }; });
 }
 
 }  // namespace slamot::app

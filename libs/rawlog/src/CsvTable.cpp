@@ -14,17 +14,39 @@
 namespace slamot {
 namespace {
 
-std::vector<std::string> splitAtCommas(const std::string& line) {
+bool isBlank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+std::string trimmed(std::string field) {
+    field.erase(field.begin(), std::find_if_not(field.begin(), field.end(), isBlank));
+    field.erase(std::find_if_not(field.rbegin(), field.rend(), isBlank).base(), field.end());
+    return field;
+}
+
+/// What stands between quotes keeps its commas and blanks; a doubled quote is one.
+std::vector<std::string> fieldsOf(const std::string& line) {
     std::vector<std::string> fields;
-    for (std::size_t begin = 0;;) {
-        const std::size_t comma = line.find(',', begin);
-        std::string field = line.substr(begin, comma - begin);
-        const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
-        field.erase(field.begin(), std::find_if_not(field.begin(), field.end(), isBlank));
-        field.erase(std::find_if_not(field.rbegin(), field.rend(), isBlank).base(), field.end());
+    std::size_t at = 0;
+    for (;;) {
+        std::string field;
+        const std::size_t begin = std::min(line.find_first_not_of(" \t", at), line.size());
+        const bool quoted = begin < line.size() && line[begin] == '"';
+        if (quoted) {
+            for (at = begin + 1; at < line.size(); ++at) {
+                if (line[at] == '"' && (at + 1 == line.size() || line[at + 1] != '"')) break;
+                if (line[at] == '"') ++at;
+                field += line[at];
+            }
+            at = line.find(',', at);
+        } else {
+            const std::size_t comma = line.find(',', at);
+            field = trimmed(line.substr(at, comma - at));
+            at = comma;
+        }
         fields.push_back(std::move(field));
-        if (comma == std::string::npos) return fields;
-        begin = comma + 1;
+        if (at == std::string::npos || at >= line.size()) return fields;
+        ++at;
     }
 }
 
@@ -47,7 +69,7 @@ CsvReader::CsvReader(const std::string& file, LastLine last_line)
         throw LogError(
             fmt::format("{}:1: the header row is missing, expected the names of the columns", file));
     removeCarriageReturn(line);
-    header_ = splitAtCommas(line);
+    header_ = fieldsOf(line);
     line_ = 1;
 }
 
@@ -71,7 +93,7 @@ bool CsvReader::next() {
         removeCarriageReturn(line);
     } while (line.empty());
     const bool unfinished = in_.eof();
-    fields_ = splitAtCommas(line);
+    fields_ = fieldsOf(line);
     if (fields_.size() == header_.size()) return true;
     if (unfinished && last_line_ == LastLine::may_be_cut) return false;
     throw LogError(fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_,
@@ -114,6 +136,16 @@ void CsvReader::fail(int column, const std::string& expected) const {
                                fields_[column], expected));
 }
 
+std::string csvField(std::string_view text) {
+    // A table's rows are its lines: a line end within a text becomes a blank.
+    std::string field;
+    for (const char c : text) field += c == '\n' || c == '\r' ? ' ' : c;
+    if (field.find_first_of(",\"") == std::string::npos && trimmed(field) == field) return field;
+    std::string quoted = "\"";
+    for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
 void appendField(std::string& line, double value) {
     appendSeparator(line);
     fmt::format_to(std::back_inserter(line), "{}", value);
@@ -126,7 +158,7 @@ void appendField(std::string& line, std::int64_t value) {
 
 void appendField(std::string& line, std::string_view text) {
     appendSeparator(line);
-    line += text;
+    line += csvField(text);
 }
 
 void appendField(std::string& line, Stamp stamp) {

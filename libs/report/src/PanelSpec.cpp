@@ -67,8 +67,8 @@ std::vector<double> evenTicks(const AxisView& view) {
     return ticks;
 }
 
-/// Powers of ten, at most `count` of them; where only few would be in view with more and more between them, so
-/// that the axis can be read.
+/// Powers of ten, at most `count` of them; where only few would be in view with more and more between them,
+/// so that the axis can be read.
 std::vector<double> logarithmicTicks(const AxisView& view, double count) {
     constexpr std::size_t readable = 3;
     const double decades = std::log10(view.high / view.low);

@@ -14,13 +14,6 @@ std::string row(const Fields&... fields) {
     return line;
 }
 
-/// A sensor's name as a field: the tables know no quotes, so what would break a row is replaced.
-std::string fieldOf(std::string label) {
-    for (char& c : label)
-        if (c == ',' || c == '\n' || c == '\r') c = '_';
-    return label;
-}
-
 std::int64_t idOf(SourceId id) {
     return id.valid() ? id.value : -1;
 }
@@ -42,7 +35,8 @@ TrajectorySink::TrajectorySink(const std::string& folder, double interval)
 void TrajectorySink::step(const Step& step) {
     if (!clock_.due(step)) return;
     const auto& [pose, c] = step.estimate.robot;
-    csv_.line(row(step.estimate.stamp, pose.x, pose.y, pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)));
+    csv_.line(row(step.estimate.stamp, pose.x, pose.y, pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
+                  c(1, 2), c(2, 2)));
     tum_.line(fmt::format("{} {} {} 0 0 0 {} {}", slamot::toText(step.estimate.stamp), pose.x, pose.y,
                           std::sin(0.5 * pose.theta), std::cos(0.5 * pose.theta)));
 }
@@ -84,19 +78,20 @@ void LandmarksSink::end(const RunEnd& end) {
     PartFile csv(folder_ + "/landmarks.csv");
     csv.line("id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,source_id");
     for (const LandmarkEstimate& l : end.landmarks)
-        csv.line(row(l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0), l.covariance(0, 1), l.covariance(1, 1),
-                     l.seen, l.first_seen, l.last_seen, idOf(l.source)));
+        csv.line(row(l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0), l.covariance(0, 1),
+                     l.covariance(1, 1), l.seen, l.first_seen, l.last_seen, idOf(l.source)));
     csv.close();
 }
 
-LandmarksHistorySink::LandmarksHistorySink(const std::string& folder) : csv_(folder + "/landmarks_history.csv") {
+LandmarksHistorySink::LandmarksHistorySink(const std::string& folder)
+    : csv_(folder + "/landmarks_history.csv") {
     csv_.line("t,id,x,y,c_xx,c_xy,c_yy,source_id");
 }
 
 void LandmarksHistorySink::step(const Step& step) {
     for (const LandmarkEstimate& l : step.touched)
-        csv_.line(row(step.estimate.stamp, l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0), l.covariance(0, 1),
-                      l.covariance(1, 1), idOf(l.source)));
+        csv_.line(row(step.estimate.stamp, l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0),
+                      l.covariance(0, 1), l.covariance(1, 1), idOf(l.source)));
 }
 
 InnovationsSink::InnovationsSink(const std::string& folder) : csv_(folder + "/innovations.csv") {
@@ -107,10 +102,10 @@ void InnovationsSink::step(const Step& step) {
     const RangeBearingSet& set = step.detections.rangeBearing();
     for (const Innovation& i : step.report.innovations)
         csv_.line(row(step.estimate.stamp,
-                      std::string_view(fieldOf(set.sensors[set.detections[i.detection].sensor].label)),
+                      std::string_view(set.sensors[set.detections[i.detection].sensor].label),
                       std::string_view(slamot::toText(i.kind)), i.landmark.value, i.track.value,
-                      std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(), i.covariance(0, 0),
-                      i.covariance(0, 1), i.covariance(1, 1), i.nis));
+                      std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(),
+                      i.covariance(0, 0), i.covariance(0, 1), i.covariance(1, 1), i.nis));
 }
 
 StepsSink::StepsSink(const std::string& folder) : csv_(folder + "/steps.csv") {

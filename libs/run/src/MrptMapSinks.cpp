@@ -7,8 +7,8 @@
 
 #include "slamot/rawlog/Conventions.h"
 #include "slamot/rawlog/GzFile.h"
-#include "slamot/run/MrptSinks.h"
 #include "slamot/rawlog/PartFile.h"
+#include "slamot/run/MrptSinks.h"
 
 namespace slamot::run {
 

@@ -17,8 +17,8 @@
 namespace slamot::run {
 namespace {
 
-/// How long detections wait for odometry [s], unless max_odometry_gap is longer: more than any stall that a robot
-/// drives through, little enough to hold.
+/// How long detections wait for odometry [s], unless max_odometry_gap is longer: more than any stall that a
+/// robot drives through, little enough to hold.
 constexpr double longest_wait = 30.0;
 
 /// CPU time [s] of this thread or, so that what an estimator's threads use counts too, of the whole process.
@@ -28,7 +28,7 @@ double cpuSeconds(bool whole_process) {
 
 /// Adds the wall and CPU time of its life to a stage.
 class StageClock {
-   public:
+  public:
     StageClock(double& wall, double& cpu, int threads)
         : wall_(wall),
           cpu_(cpu),
@@ -40,7 +40,7 @@ class StageClock {
         wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin_).count();
     }
 
-   private:
+  private:
     double &wall_, &cpu_;
     bool whole_process_;
     std::chrono::steady_clock::time_point wall_begin_;
@@ -72,17 +72,22 @@ void appendSet(const RangeBearingSet& detected, RangeBearingSet& set) {
 
 const char* toText(RunStatus status) {
     switch (status) {
-        case RunStatus::complete: return "complete";
-        case RunStatus::stopped: return "stopped";
-        case RunStatus::truncated: return "truncated";
-        case RunStatus::corrupt: return "corrupt";
-        case RunStatus::failed: return "failed";
+        case RunStatus::complete:
+            return "complete";
+        case RunStatus::stopped:
+            return "stopped";
+        case RunStatus::truncated:
+            return "truncated";
+        case RunStatus::corrupt:
+            return "corrupt";
+        case RunStatus::failed:
+            return "failed";
     }
     return "failed";
 }
 
-Pipeline::Pipeline(const RunConfig& config, Estimator& estimator, Detector* detector, const Truth* truth, int threads,
-                   std::vector<Sink*> sinks)
+Pipeline::Pipeline(const RunConfig& config, Estimator& estimator, Detector* detector, const Truth* truth,
+                   int threads, std::vector<Sink*> sinks)
     : config_(config),
       estimator_(estimator),
       detector_(detector),
@@ -208,7 +213,8 @@ Pipeline::Held* Pipeline::holdFor(Stamp stamp) {
 }
 
 void Pipeline::dropHeldBefore(Stamp stamp) {
-    const auto kept = std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.stamp >= stamp; });
+    const auto kept =
+        std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.stamp >= stamp; });
     for (auto held = held_.begin(); held != kept; ++held) drop(*held, "before-odometry");
     held_.erase(held_.begin(), kept);
 }
@@ -227,8 +233,11 @@ void Pipeline::start(Stamp stamp) {
     const double position = config_.start.position_std, heading = config_.start.heading_std;
     begin.pose.covariance = Vector3(position * position, position * position, heading * heading).asDiagonal();
     switch (config_.start.kind) {
-        case StartPose::zero: break;
-        case StartPose::given: begin.pose.mean = config_.start.pose; break;
+        case StartPose::zero:
+            break;
+        case StartPose::given:
+            begin.pose.mean = config_.start.pose;
+            break;
         case StartPose::truth: {
             const auto pose = truth_ ? truth_->robotAt(stamp) : std::nullopt;
             if (!pose)
@@ -245,9 +254,10 @@ void Pipeline::start(Stamp stamp) {
 
 void Pipeline::advance(const OdometryIncrement& odometry) {
     if (const std::string missing = estimator_.missingInOdometry(odometry); !missing.empty())
-        throw ConfigError(fmt::format("the log's odometry has no {}, which [motion] model needs, expected model = arc or "
-                                      "increment for this log",
-                                      missing));
+        throw ConfigError(
+            fmt::format("the log's odometry has no {}, which [motion] model needs, expected model = arc or "
+                        "increment for this log",
+                        missing));
     if (odometry.seconds() > config_.max_odometry_gap) ++counts_.odometry_gaps;
     OdometryIncrement rest = odometry;
     for (const Held& held : held_) {
@@ -323,7 +333,8 @@ void Pipeline::appendReading(const RangeBearingReading& reading, RangeBearingSet
 
 Matrix2 Pipeline::noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const {
     NoiseOverride noise = config_.noise;
-    if (const auto found = config_.noise_by_label.find(reading.sensor.label); found != config_.noise_by_label.end()) {
+    if (const auto found = config_.noise_by_label.find(reading.sensor.label);
+        found != config_.noise_by_label.end()) {
         if (found->second.range_std) noise.range_std = found->second.range_std;
         if (found->second.range_std_per_m) noise.range_std_per_m = found->second.range_std_per_m;
         if (found->second.bearing_std) noise.bearing_std = found->second.bearing_std;

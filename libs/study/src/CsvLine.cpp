@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slamot/core/config/Parameters.h"
+#include "slamot/rawlog/CsvTable.h"
 
 namespace slamot::study {
 
@@ -14,13 +15,7 @@ std::string csvLine(const std::vector<std::string>& fields) {
     std::string line;
     for (const std::string& field : fields) {
         if (&field != &fields.front()) line += ',';
-        if (field.find_first_of(",\"\r\n") == std::string::npos) {
-            line += field;
-            continue;
-        }
-        line += '"';
-        for (const char c : field) line += c == '"' ? std::string("\"\"") : std::string(1, c);
-        line += '"';
+        line += csvField(field);
     }
     return line + '\n';
 }

@@ -9,9 +9,9 @@
 #include "ExportFolder.h"
 #include "Selected.h"
 #include "StatisticFields.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/report/Figure.h"
 #include "slamot/report/FigureWriter.h"
-#include "slamot/rawlog/PartFile.h"
 #include "slamot/study/Figures.h"
 
 namespace slamot::study {
@@ -137,10 +137,9 @@ class Exporter {
                     {"runs", "failed", "judged", "diverged", "rate", "rate_low", "rate_high"});
         for (const Cell& cell : cells_) {
             const Divergence d = divergence(cell, study_.parameters.diverged_above);
-            csv.line(cell,
-                     {std::to_string(cell.rows.size()), std::to_string(d.failed),
-                      std::to_string(d.lost.of), std::to_string(d.diverged), csvNumber(d.lost.rate),
-                      csvNumber(d.lost.low), csvNumber(d.lost.high)});
+            csv.line(cell, {std::to_string(cell.rows.size()), std::to_string(d.failed),
+                            std::to_string(d.lost.of), std::to_string(d.diverged), csvNumber(d.lost.rate),
+                            csvNumber(d.lost.low), csvNumber(d.lost.high)});
         }
         csv.close();
     }
@@ -217,7 +216,8 @@ std::vector<fs::path> filesOf(const Analysis& analysis) {
     std::vector<fs::path> files = {"rows.csv",       "cells.csv",       "paired.csv",
                                    "divergence.csv", "consistency.csv", "ranks.csv"};
     for (const TableSpec& table : analysis.tables)
-        for (const char* suffix : {".md", ".csv"}) files.push_back(fs::path("tables") / (table.name + suffix));
+        for (const char* suffix : {".md", ".csv"})
+            files.push_back(fs::path("tables") / (table.name + suffix));
     for (const PlotSpec& plot : analysis.plots) files.push_back(fs::path("figures") / (plot.name + ".svg"));
     return files;
 }

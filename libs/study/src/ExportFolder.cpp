@@ -31,8 +31,9 @@ void removeEarlierExport(const fs::path& folder, const std::string& study) {
         throw LogError(fmt::format("{}: holds files that no export of a study made, expected an empty folder",
                                    folder.string()));
     if (line != study)
-        throw LogError(fmt::format("{}: holds an export of the study '{}', expected one of '{}' or an empty folder",
-                                   folder.string(), line, study));
+        throw LogError(
+            fmt::format("{}: holds an export of the study '{}', expected one of '{}' or an empty folder",
+                        folder.string(), line, study));
     while (std::getline(list, line))
         if (staysBelow(line)) fs::remove(folder / line, error);
 }

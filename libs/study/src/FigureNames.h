@@ -10,7 +10,8 @@ struct FigureUnit {
     Dimension dimension = Dimension::other;
     double si = 1;  ///< the figure's own unit in SI: 1e-3 for milliseconds
 };
-/// By the words of its name, as eval, Series.h and Cost give them. Counts, NEES, speeds and the like are `other`.
+/// By the words of its name, as eval, Series.h and Cost give them. Counts, NEES, speeds and the like are
+/// `other`.
 FigureUnit unitOf(const std::string& figure);
 
 /// Whether a row can have a figure of that name: a slip must be found before the study has run.

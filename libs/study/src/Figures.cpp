@@ -181,8 +181,8 @@ class Drawing {
         return panelOf(curves, spec_.parameter);
     }
 
-    /// Curves often have their points at the same places: a little apart, their intervals can be told from each
-    /// other.
+    /// Curves often have their points at the same places: a little apart, their intervals can be told from
+    /// each other.
     void spreadAlongX(Curves& curves) const {
         const auto place = [&](double x) { return spec_.logarithmic_x ? std::log(x) : x; };
         std::set<double> places;
@@ -266,9 +266,8 @@ class Drawing {
             lines.push_back(line);
         }
         panel.layers.insert(panel.layers.end(), lines.begin(), lines.end());
-        panel.note =
-            fmt::format("{} of {}{}", ofMedians() ? "Median" : "Mean", runs.text(),
-                        shaded ? ", shaded: the middle 80 %" : "");
+        panel.note = fmt::format("{} of {}{}", ofMedians() ? "Median" : "Mean", runs.text(),
+                                 shaded ? ", shaded: the middle 80 %" : "");
         if (interval > 0) panel.note += fmt::format("; averaged over {:.2g} s", interval);
         return panel;
     }

@@ -56,16 +56,18 @@ const Importer& importerOf(const StudyFile& study, const Source& source) {
 /// Of the files' names, sizes and times of change.
 std::string digestOfFiles(const fs::path& data) {
     std::vector<std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(data, fs::directory_options::follow_directory_symlink))
+    for (const auto& entry :
+         fs::recursive_directory_iterator(data, fs::directory_options::follow_directory_symlink))
         if (entry.is_regular_file())
-            files.push_back(fmt::format("{} {} {}", entry.path().lexically_relative(data).string(), entry.file_size(),
+            files.push_back(fmt::format("{} {} {}", entry.path().lexically_relative(data).string(),
+                                        entry.file_size(),
                                         entry.last_write_time().time_since_epoch().count()));
     std::sort(files.begin(), files.end());
     return digestOf(files);
 }
 
-/// The folder with the imported logs, made when it is not there: another one for each state of the dataset and
-/// for each build.
+/// The folder with the imported logs, made when it is not there: another one for each state of the dataset
+/// and for each build.
 fs::path imported(const Importer& importer, const fs::path& data, const Source& source,
                   const std::string& work_folder) {
     const std::string made_from =

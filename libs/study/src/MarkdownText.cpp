@@ -9,8 +9,8 @@ bool isWordCharacter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-/// Only where it would mean something, so that tables read well as plain text: names like robot_nees and "a < b"
-/// stay as they are.
+/// Only where it would mean something, so that tables read well as plain text: names like robot_nees and "a <
+/// b" stay as they are.
 bool needsBackslash(const std::string& text, std::size_t at) {
     const char c = text[at], before = at > 0 ? text[at - 1] : ' ',
                after = at + 1 < text.size() ? text[at + 1] : ' ';
@@ -27,7 +27,8 @@ bool needsBackslash(const std::string& text, std::size_t at) {
         case '~':
             return before == '~' || after == '~';
         case '<':
-            return std::isalpha(static_cast<unsigned char>(after)) || after == '/' || after == '!' || after == '?';
+            return std::isalpha(static_cast<unsigned char>(after)) || after == '/' || after == '!' ||
+                   after == '?';
         case '&':
             return std::isalpha(static_cast<unsigned char>(after)) || after == '#';
         case '\\':

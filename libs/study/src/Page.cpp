@@ -17,9 +17,9 @@
 #include "MarkdownText.h"
 #include "SectionReader.h"
 #include "slamot/core/Version.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/report/Figure.h"
 #include "slamot/report/FigureWriter.h"
-#include "slamot/rawlog/PartFile.h"
 #include "slamot/study/Figures.h"
 
 namespace slamot::study {

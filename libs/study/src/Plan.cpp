@@ -157,8 +157,8 @@ std::size_t Plan::runCount() const {
 
 std::string Plan::keyOf(const WorldPlan& world, const RunPlan& run) const {
     return digestOf({kinds[world.kind].digest, std::to_string(world.world_seed), variantOf(run).name,
-                     configs[run.config].digest,
-                     fmt::format("{}", fmt::join(study.parameters.series, ",")), version});
+                     configs[run.config].digest, fmt::format("{}", fmt::join(study.parameters.series, ",")),
+                     version});
 }
 
 std::uint64_t Plan::estimatorSeedOf(const WorldPlan& world, const RunPlan& run) const {
@@ -214,8 +214,7 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
     const int replicates = request.replicates.value_or(request.short_form ? file.parameters.short_replicates
                                                                           : file.parameters.replicates);
     std::vector<std::uint64_t> seeds;
-    for (const std::size_t kind : scenario_kinds)
-        seeds.push_back(sourceSeed(file, plan.kinds[kind].source));
+    for (const std::size_t kind : scenario_kinds) seeds.push_back(sourceSeed(file, plan.kinds[kind].source));
     plan.worlds.reserve(plan.worlds.size() + scenario_kinds.size() * static_cast<std::size_t>(replicates));
     for (int replicate = 1; replicate <= replicates; ++replicate)
         for (std::size_t i = 0; i < scenario_kinds.size(); ++i)

@@ -66,9 +66,9 @@ StudyTimes runStudy(const Plan& plan, const std::vector<Unit>& units, const Plug
         for (; next < units.size() && !stopped(); ++next)
             count(runUnit(plan, units[next], registry, unit_options));
     } else {
-        // MRPT looks its classes up without a lock while none is being registered. Those of the libraries were
-        // registered when they were loaded, those of the plugins when the study was laid out, which loads all
-        // it needs; what may be pending is done here, so that none comes while threads read logs.
+        // MRPT looks its classes up without a lock while none is being registered. Those of the libraries
+        // were registered when they were loaded, those of the plugins when the study was laid out, which
+        // loads all it needs; what may be pending is done here, so that none comes while threads read logs.
         mrpt::rtti::registerAllPendingClasses();
         namespace tbb = oneapi::tbb;
         const auto threads = static_cast<std::size_t>(options.threads);

@@ -68,10 +68,10 @@ Session::Session(const SessionRequest& request, const PluginRegistry& registry)
 std::vector<Unit> Session::missing(const Shard& shard) const {
     std::vector<Unit> units = unitsOf(plan_, store_.done(plan_, request_.retry_failed), shard);
     if (store_.readOnly() && !units.empty())
-        throw LogError(
-            fmt::format("{}: runs are missing, but file or folder may not be written to, expected --no-run or "
-                        "a file that takes rows",
-                        request_.store_file));
+        throw LogError(fmt::format(
+            "{}: runs are missing, but file or folder may not be written to, expected --no-run or "
+            "a file that takes rows",
+            request_.store_file));
     return units;
 }
 
@@ -95,7 +95,8 @@ std::string Session::stateInWords() const {
         if (row.status != "failed") continue;
         ++failed;
         const std::string reason = row.variant + " on " + row.source + ": " + row.reason;
-        ++reasons.try_emplace(std::regex_replace(reason, std::regex("[0-9]+"), "#"), reason, 0).first->second.second;
+        ++reasons.try_emplace(std::regex_replace(reason, std::regex("[0-9]+"), "#"), reason, 0)
+              .first->second.second;
     }
     std::string text = fmt::format("{} of {} runs are there", there, plan_.runCount());
     if (failed > 0) text += fmt::format(", of which {} failed", failed);

@@ -31,8 +31,8 @@ class Statement {
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// Whether the user may not change a file, or not make SQLite's own files beside it. One that is not there yet
-/// may be made.
+/// Whether the user may not change a file, or not make SQLite's own files beside it. One that is not there
+/// yet may be made.
 bool isReadOnly(const std::string& file);
 
 class Database {

@@ -81,8 +81,7 @@ std::vector<std::pair<RunIndex, std::string>> runsAmong(Database& database, cons
                                                         const std::string& condition = "1") {
     std::map<std::string, std::string> rows;
     std::set<std::uint64_t> seeds;
-    Statement all(database,
-                  fmt::format("SELECT key, world_seed, {} FROM rows WHERE {}", text, condition));
+    Statement all(database, fmt::format("SELECT key, world_seed, {} FROM rows WHERE {}", text, condition));
     while (all.step()) {
         rows[all.text(0)] = all.text(2);
         seeds.insert(std::stoull(all.text(1)));
@@ -122,8 +121,8 @@ struct Store::Impl {
         insert = std::make_unique<Statement>(
             database,
             fmt::format("INSERT OR REPLACE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
-        select = std::make_unique<Statement>(database,
-                                             fmt::format("SELECT {} FROM rows WHERE key = ?", columns));
+        select =
+            std::make_unique<Statement>(database, fmt::format("SELECT {} FROM rows WHERE key = ?", columns));
     }
 
     /// Makes the tables in an empty file, and never in a database of something else.
@@ -152,9 +151,8 @@ struct Store::Impl {
 
     void requireWritable() const {
         if (database.readOnly())
-            throw LogError(
-                fmt::format("{}: file or folder may not be written to, expected one that takes rows",
-                            database.file()));
+            throw LogError(fmt::format(
+                "{}: file or folder may not be written to, expected one that takes rows", database.file()));
     }
 
     std::optional<Row> find(const std::string& key) {

@@ -1,5 +1,6 @@
 #pragma once
-// Plain comma-separated tables with a header row: every CSV this project writes or imports. No quoting.
+// Comma-separated tables with a header row: every CSV this project writes or imports. Texts are quoted as in
+// RFC 4180 where they need it; a row is one line.
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -45,6 +46,10 @@ class CsvReader {
     std::vector<std::string> header_, fields_;
     std::int64_t line_ = 0;
 };
+
+/// A text as a field: quoted where it holds a comma, a quote or blanks at an end; its line ends become
+/// blanks.
+std::string csvField(std::string_view text);
 
 /// The shortest text that reads back as the same number, appended to `line` after a comma (none at the start
 /// of a line).

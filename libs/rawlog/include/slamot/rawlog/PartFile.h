@@ -5,8 +5,8 @@
 
 namespace slamot {
 
-/// Where a file or folder is written until it is whole: a crash leaves what was written under this name, and never
-/// anything that looks finished.
+/// Where a file or folder is written until it is whole: a crash leaves what was written under this name, and
+/// never anything that looks finished.
 std::string partOf(const std::string& file);
 /// Gives what stands there its final name. Throws LogError.
 void finishPart(const std::string& file);

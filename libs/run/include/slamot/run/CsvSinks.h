@@ -9,80 +9,80 @@ namespace slamot::run {
 
 /// Which steps get a row: all, or those with detections and otherwise one per `interval` seconds.
 class RowClock {
-   public:
+  public:
     explicit RowClock(double interval) : interval_(interval) {}
     bool due(const Step& step);
 
-   private:
+  private:
     double interval_;
     std::optional<Stamp> last_;
 };
 
 /// trajectory.csv and trajectory.tum
 class TrajectorySink : public Sink {
-   public:
+  public:
     TrajectorySink(const std::string& folder, double interval);
     void step(const Step& step) override;
     void end(const RunEnd& end) override;
 
-   private:
+  private:
     RowClock clock_;
     PartFile csv_, tum_;
 };
 
 /// tracks.csv
 class TracksSink : public Sink {
-   public:
+  public:
     TracksSink(const std::string& folder, double interval, const std::vector<std::string>& mode_names);
     void step(const Step& step) override;
     void end(const RunEnd& end) override;
 
-   private:
+  private:
     RowClock clock_;
     PartFile csv_;
 };
 
 /// landmarks.csv, at the end
 class LandmarksSink : public Sink {
-   public:
+  public:
     explicit LandmarksSink(const std::string& folder) : folder_(folder) {}
     void step(const Step&) override {}
     void end(const RunEnd& end) override;
 
-   private:
+  private:
     std::string folder_;
 };
 
 /// landmarks_history.csv: every landmark at every stamp that saw it
 class LandmarksHistorySink : public Sink {
-   public:
+  public:
     explicit LandmarksHistorySink(const std::string& folder);
     void step(const Step& step) override;
     void end(const RunEnd&) override { csv_.close(); }
 
-   private:
+  private:
     PartFile csv_;
 };
 
 /// innovations.csv
 class InnovationsSink : public Sink {
-   public:
+  public:
     explicit InnovationsSink(const std::string& folder);
     void step(const Step& step) override;
     void end(const RunEnd&) override { csv_.close(); }
 
-   private:
+  private:
     PartFile csv_;
 };
 
 /// steps.csv
 class StepsSink : public Sink {
-   public:
+  public:
     explicit StepsSink(const std::string& folder);
     void step(const Step& step) override;
     void end(const RunEnd&) override { csv_.close(); }
 
-   private:
+  private:
     PartFile csv_;
 };
 

@@ -24,8 +24,8 @@ std::vector<std::string> argumentsOf(const SessionRequest& request);
 /// Words as one line for a shell, quoted where they need it.
 std::string shellLine(const std::vector<std::string>& words);
 
-/// Reads the study and lays it out. Throws ConfigError, also for a request that contradicts itself, PluginError
-/// or LogError.
+/// Reads the study and lays it out. Throws ConfigError, also for a request that contradicts itself,
+/// PluginError or LogError.
 Plan planOf(const SessionRequest& request, const PluginRegistry& registry);
 
 class Session {

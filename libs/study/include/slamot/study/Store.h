@@ -32,8 +32,8 @@ class Store {
     /// Rows in the file, whatever the plan.
     std::size_t count() const;
     /// Takes all rows of another store of the same study, or none of them. Where one of two rows of a key has
-    /// failed, the other is kept. Throws LogError when two that did not fail differ and, unless `any_build`, for
-    /// rows of the plan that another build made.
+    /// failed, the other is kept. Throws LogError when two that did not fail differ and, unless `any_build`,
+    /// for rows of the plan that another build made.
     void merge(const std::string& file, const Plan& plan, bool any_build);
 
   private:

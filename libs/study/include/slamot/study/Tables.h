@@ -46,7 +46,7 @@ Table makeTable(const TableSpec& spec, const Findings& findings);
 
 /// GitHub's Markdown, padded so that it reads as plain text too; ends with a newline.
 std::string toMarkdown(const Table& table);
-/// RFC 4180: a header; texts are quoted where they hold a comma, a quote or a line end.
+/// A header, and fields as csvField has them.
 std::string toCsv(const Table& table);
 
 }  // namespace slamot::study
