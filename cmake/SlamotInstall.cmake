@@ -1,5 +1,5 @@
 # The installed package: find_package(slamot) gives slamot::core, slamot::rawlog, slamot::sim, slamot::eval,
-# slamot::run, slamot::report and the functions of SlamotAddPlugin.cmake. It may be moved as a whole.
+# slamot::run, slamot::report, slamot::study and the functions of SlamotAddPlugin.cmake. It may be moved as a whole.
 include(CMakePackageConfigHelpers)
 
 set(SLAMOT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/slamot)
