@@ -1,5 +1,6 @@
 #pragma once
 // Which landmarks the compressed engine keeps active: those the sensors can reach, with a margin.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +41,9 @@ class ActiveSetPolicy {
     bool toActivate(const Vector2& landmark) const {
         return within(landmark, parameters_.activate_margin, 1);
     }
-    bool toKeep(const Vector2& landmark) const { return within(landmark, parameters_.keep_margin, 2); }
+    bool toKeep(const Vector2& landmark) const {
+        return within(landmark, std::max(parameters_.keep_margin, parameters_.activate_margin), 2);
+    }
     bool worthCommit(int active_dimension, int active_landmarks, int retirable, int base_dimension) const;
 
   private:
