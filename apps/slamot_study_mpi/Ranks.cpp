@@ -8,7 +8,10 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 #include <chrono>
+#include <deque>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "slamot/rawlog/Sha256.h"
@@ -56,22 +59,38 @@ StudyTimes handOut(const mpi::communicator& world, const Plan& plan, const std::
     requireSamePlan(world, plan);
     const auto begin = std::chrono::steady_clock::now();
     RowCounter count(units, progress, take);
-    std::size_t next = 0;
-    int working = 0;
-    const auto handTo = [&](int rank) {
-        const bool more = next < units.size() && !stop;
-        send(world, rank, more ? &units[next++] : nullptr);
-        working += more;
+    std::deque<Unit> waiting(units.begin(), units.end());
+    std::map<int, Unit> working;
+    // Ranks without work are told the end last: a rank that stops gives work back.
+    std::set<int> idle;
+    for (int rank = 1; rank < world.size(); ++rank) idle.insert(rank);
+    const auto handOutWaiting = [&] {
+        while (!stop && !waiting.empty() && !idle.empty()) {
+            const int rank = *idle.begin();
+            send(world, rank, &waiting.front());
+            working[rank] = std::move(waiting.front());
+            waiting.pop_front();
+            idle.erase(rank);
+        }
     };
-    for (int rank = 1; rank < world.size(); ++rank) handTo(rank);
-    while (working > 0) {
+    handOutWaiting();
+    while (!working.empty()) {
         const int rank = waitFor(world, mpi::any_source, rows_tag).source();
         const std::vector<Row> rows = receiveRows(world, rank);
-        --working;
+        Unit unit = std::move(working.extract(rank).mapped());
+        if (rows.size() < unit.runs.size()) {
+            // Stopped from outside: it would answer all further units with nothing.
+            send(world, rank, nullptr);
+            unit.runs.erase(unit.runs.begin(), unit.runs.begin() + static_cast<std::ptrdiff_t>(rows.size()));
+            waiting.push_front(std::move(unit));
+        } else {
+            idle.insert(rank);
+        }
         // The next unit first: the rank need not wait for the store.
-        handTo(rank);
+        handOutWaiting();
         count(rows);
     }
+    for (const int rank : idle) send(world, rank, nullptr);
     return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
             count.runsSeconds()};
 }

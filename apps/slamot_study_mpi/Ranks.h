@@ -11,7 +11,7 @@
 namespace slamot::study {
 
 /// Rank 0, with at least one other: returns when all units are done or, once stopped, all that were under
-/// way.
+/// way. A rank that was stopped gets no more, and what it left goes to the others; rows are missing when all were.
 StudyTimes handOut(const boost::mpi::communicator& world, const Plan& plan, const std::vector<Unit>& units,
                    const std::atomic<bool>& stop, const std::function<void(const StudyProgress&)>& progress,
                    const std::function<void(const Row&)>& take);

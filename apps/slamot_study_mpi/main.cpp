@@ -12,6 +12,7 @@
 
 #include "Ranks.h"
 #include "slamot/core/Version.h"
+#include "slamot/core/plugin/ErrorText.h"
 #include "slamot/rawlog/LogError.h"
 #include "slamot/study/Session.h"
 
@@ -69,7 +70,7 @@ class ProgressLines {
     Clock::time_point begin_ = Clock::now(), shown_ = begin_;
 };
 
-/// The exit code; when stopped, the other ranks have ended cleanly too.
+/// The exit code: failed while runs are missing. When stopped, the other ranks have ended cleanly too.
 int firstRank(const mpi::communicator& world, const Options& options, const PluginRegistry& registry,
               Clock::time_point begin) {
     study::Session session(options.session, registry);
@@ -97,7 +98,9 @@ int firstRank(const mpi::communicator& world, const Options& options, const Plug
                    study::timesInWords(progress.last, wall, times.runs_s, std::max(world.size() - 1, 1)));
     const std::string state = session.stateInWords();
     fmt::print(state.find('\n') == std::string::npos ? stdout : stderr, "slamot_study_mpi: {}\n", state);
-    if (!stop_requested) return exit_success;
+    std::size_t wanted = 0;
+    for (const study::Unit& unit : units) wanted += unit.runs.size();
+    if (progress.last.done == wanted) return exit_success;
     fmt::print(stderr,
                "slamot_study_mpi: stopped; the rows so far are kept, the same command does the rest\n");
     return exit_failed;
@@ -105,12 +108,7 @@ int firstRank(const mpi::communicator& world, const Options& options, const Plug
 
 void otherRank(const mpi::communicator& world, const Options& options, const PluginRegistry& registry) {
     world.barrier();
-    study::PlanRequest request;
-    request.short_form = options.session.short_form;
-    request.replicates = options.session.replicates;
-    request.work_folder = study::workFolderOf(options.session.store_file);
-    study::work(world, study::layOut(study::loadStudy(options.session.study_file), request, registry),
-                registry, stop_requested);
+    study::work(world, study::planOf(options.session, registry), registry, stop_requested);
 }
 
 }  // namespace
@@ -130,7 +128,7 @@ int main(int argc, char** argv) {
     if (options.replicates > 0) options.session.replicates = options.replicates;
 
     const auto tellAndGiveUp = [&](const std::exception& error, int code) {
-        fmt::print(stderr, "slamot_study_mpi: {}\n", error.what());
+        fmt::print(stderr, "slamot_study_mpi: {}\n", sentenceOf(error));
         return code;
     };
     // Plugins are probed in child processes, which are better not made once MPI has started.

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "../../libs/study/src/StatisticFields.h"
 #include "slamot/study/Analysis.h"
 #include "study/Builders.h"
 
@@ -72,6 +74,19 @@ TEST(Scaled, ScalesEveryNumberButTheCount) {
         EXPECT_DOUBLE_EQ(s.*value, direct.*value);
 }
 
+TEST(StatisticFields, AreAllNumbersOfAStatisticOnce) {
+    std::set<std::string> names;
+    Statistic s;
+    for (const StatisticField& number : statistic_fields) {
+        EXPECT_TRUE(std::isnan(s.*number.field)) << number.name << " is there twice";
+        s.*number.field = 1;
+        names.insert(number.name);
+    }
+    EXPECT_EQ(names.size(), statistic_fields.size());
+    // A count, padded to the size of a double, and numbers: one not in the table would be left over.
+    EXPECT_EQ(sizeof(Statistic), (1 + statistic_fields.size()) * sizeof(double));
+}
+
 TEST(RateOf, WilsonsInterval) {
     const Rate half = rateOf(5, 10), none = rateOf(0, 10), all = rateOf(10, 10), empty = rateOf(0, 0);
     // Newcombe, Statistics in Medicine 17, 1998 gives these limits to four digits for such cases.
@@ -135,13 +150,45 @@ TEST(Divergence, CountsFarOffAndFailedRuns) {
     EXPECT_DOUBLE_EQ(d.diverged.rate, 0.6);
 }
 
+TEST(Divergence, AnErrorThatIsNotFiniteDiverged) {
+    auto rows = rowsOf("paper1", "classic", {1, 1, 1});
+    for (Row& row : rows) row.metrics["robot.position.count"] = 40;
+    rows[1].metrics.erase("robot.position.rmse");  // summary.json has null, the row nothing
+    const Divergence d = divergence(cellsOf(rows).front(), 10);
+    EXPECT_EQ(d.failed, 0);
+    EXPECT_EQ(d.diverged.count, 1);
+    EXPECT_EQ(d.diverged.of, 3);
+}
+
+TEST(FigureOf, AFailedRunHasNoCostsOrCounts) {
+    auto rows = rowsOf("paper1", "classic", {1, 1}) + rowsOf("paper1", "invariant", {1, 1});
+    for (Row& row : rows) {
+        row.metrics["counts.landmarks"] = 8;
+        row.cost.step_ms_mean = 2;
+    }
+    rows[1].status = "failed";
+    rows[1].metrics["counts.landmarks"] = 1;
+    rows[1].cost.step_ms_mean = 100;
+    const auto cells = cellsOf(rows);
+    for (const auto& [figure, value] :
+         {std::pair("counts.landmarks", 8.0), std::pair("cost.step_ms_mean", 2.0)}) {
+        const Statistic s = statisticOf(figureOf(cells[0], figure));
+        EXPECT_EQ(s.count, 1) << figure;
+        EXPECT_EQ(s.mean, value) << figure;
+        EXPECT_EQ(compare(cells[0], cells[1], figure).difference.count, 1) << figure;
+        EXPECT_EQ(compare(cells[1], cells[0], figure).difference.count, 1) << figure;
+    }
+}
+
 TEST(ConsistencyOf, MeanOverRunsAgainstTheBandOfItsDegrees) {
     auto rows = rowsOf("paper1", "classic", {1, 1, 1});
     rows[0].series["robot_nees"] = {{0, 1}, {2, 30}, {3, 3}};
     rows[1].series["robot_nees"] = {{0, 1}, {4, 10}, {3, 3}};
+    rows.push_back(failedRow("paper1", "classic", 4));
+    rows[3].series["robot_nees"] = {{0}, {500}, {3}};
     const auto measured = consistencyOf(cellsOf(rows).front(), "robot_nees");
     ASSERT_TRUE(measured);
-    EXPECT_EQ(measured->runs, 2) << "the third has no series";
+    EXPECT_EQ(measured->runs, 2) << "the third has no series, the fourth failed";
     ASSERT_EQ(measured->steps.size(), 2u);
     EXPECT_EQ(measured->steps[0].mean, 3);
     // Chi-square with 6 degrees of freedom: 2.5 % and 97.5 % at 1.2373 and 14.4494 in any table.
@@ -178,6 +225,19 @@ TEST(Rank, TiesShareAndFailedRunsAreLast) {
     EXPECT_DOUBLE_EQ(ranked[1].rank.mean, (2.5 + 1) / 2);
     EXPECT_DOUBLE_EQ(ranked[2].rank.mean, (1 + 2) / 2.0);
     for (const Ranked& r : ranked) EXPECT_EQ(r.rank.count, 2);
+}
+
+TEST(Rank, PointsOfAGridAreNoFurtherWorlds) {
+    std::vector<Row> rows = rowsOf("s", "a", {1, 1}) + rowsOf("s", "b", {2, 2});
+    for (const char* value : {"1", "2"}) {  // at world 1, b is the better at two more points
+        rows.push_back(rowOf("s", "a", 1, 5));
+        rows.push_back(rowOf("s", "b", 1, 4));
+        for (std::size_t back : {1u, 2u}) rows[rows.size() - back].scenario_point = {{"x.y", value}};
+    }
+    const auto ranked = rank(rows, {"s"}, {"a", "b"}, rmse);
+    EXPECT_EQ(ranked[0].rank.count, 2);
+    EXPECT_DOUBLE_EQ(ranked[0].rank.mean, ((1 + 2 + 2) / 3.0 + 1) / 2);
+    EXPECT_DOUBLE_EQ(ranked[1].rank.mean, ((2 + 1 + 1) / 3.0 + 2) / 2);
 }
 
 TEST(Rank, AWorldWhereOneHasNoSuchFigureDoesNotCount) {

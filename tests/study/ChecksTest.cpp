@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <set>
 
+#include "../../libs/study/src/CheckStatistic.h"
 #include "slamot/study/Checks.h"
 #include "study/Builders.h"
 
@@ -80,7 +83,46 @@ TEST(Checks, StatisticsOfNees) {
     const CheckResult absent =
         resultOf("series = robot_nees\ninterval = 0, 1\nstatistic = inside\n", threeWorlds());
     EXPECT_EQ(absent.state, CheckState::failed);
-    EXPECT_EQ(absent.reason, "no run has a series 'robot_nees'");
+    EXPECT_EQ(absent.reason, "3 of 3 runs of 'invariant' are without the series");
+}
+
+TEST(Checks, FailedRunsCountForSeriesToo) {
+    std::vector<Row> rows = rowsOf("paper1", "invariant", {1, 1, 1, 1});
+    for (Row& row : rows) row.series["robot_nees"] = {{0, 1}, {3, 3}, {3, 3}};
+    const std::string anees = "series = robot_nees\nstatistic = anees\ninterval = 2.9, 3.1\n";
+    EXPECT_EQ(resultOf(anees, rows, 4).state, CheckState::passed);
+    for (std::size_t i : {1u, 2u, 3u}) {
+        rows[i].status = "failed";  // what it did before is still there
+        rows[i].reason = "the covariance is not definite";
+    }
+    const CheckResult strict = resultOf(anees, rows, 4);
+    EXPECT_EQ(strict.state, CheckState::failed);
+    EXPECT_EQ(
+        strict.reason,
+        "3 of 4 runs of 'invariant' are without the series, the first since: the covariance is not definite");
+    EXPECT_EQ(resultOf(anees + "missing = 0.7\n", rows, 4).state, CheckState::failed);
+    const CheckResult allowed = resultOf(anees + "missing = 0.75\n", rows, 4);
+    EXPECT_EQ(allowed.state, CheckState::passed);
+    EXPECT_EQ(allowed.reason, strict.reason) << "a check that passed says what it left out";
+}
+
+TEST(Checks, EveryStatisticIsReadByItsNameAndSaidInWords) {
+    const std::string doc = [] {
+        std::ifstream in(SLAMOT_SOURCE_DIR "/doc/studies_analysis.md");
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    }();
+    std::set<std::string> words;
+    for (const CheckStatistic& statistic : checkStatistics()) {
+        std::string text = "interval = -inf, inf\nstatistic = " + statistic.name + "\n";
+        if (statistic.ofFigure()) text += "figure = robot.position.rmse\n";
+        if (statistic.ofPairs()) text += "against = classic\n";
+        if (statistic.ofSeries()) text += "series = robot_nees\n";
+        const CheckSpec spec = readAnalysis(studyOf(checkText(text))).checks.at(0);
+        EXPECT_EQ(spec.statistic, &statistic) << statistic.name;
+        words.insert(statistic.words);
+        EXPECT_THAT(doc, HasSubstr("`" + statistic.name + "`"));
+    }
+    EXPECT_EQ(words.size(), checkStatistics().size()) << "two are called the same";
 }
 
 TEST(Checks, TheEndsBelongToTheInterval) {

@@ -62,9 +62,9 @@ TEST_F(Page, FillsTablesAndStamp) {
               "| classic   |    1 |               0.250 |\n"
               "| invariant |    1 |                   – |\n"
               "<!-- end -->\n\nWords.\n<!-- study demo stamp -->\n"
-              "Measured on 2026-01-31, Some CPU, 2 cores, slamot " +
+              "Filled on 2026-01-31, Some CPU, 2 cores, slamot " +
                   std::string(version) +
-                  ", 2 runs (1 failed): `slamot study demo.ini --db demo.db`\n"
+                  ", from 2 runs (1 failed): `slamot study demo.ini --db demo.db`\n"
                   "<!-- end -->\n<!-- study other table errors -->\nkept\n<!-- end -->\n");
 }
 
@@ -125,6 +125,26 @@ TEST_F(Page, StampCountsMachinesButDoesNotNameThem) {
     const std::string line = stampLine(provenance, {study_, analysis_, rows});
     EXPECT_THAT(line, HasSubstr("3 runs on 2 machines: `slamot"));
     EXPECT_THAT(line, Not(HasSubstr("alpha")));
+}
+
+TEST_F(Page, StampSaysWhatIsNotThere) {
+    Plan plan;
+    plan.study = study_;
+    WorldPlan& world = plan.worlds.emplace_back();  // of paper1
+    world.runs.resize(5);
+    plan.skipped = {"source quiet is skipped: no *.rawlog in /some/folder"};
+    auto rows = rowsOf("paper1", "classic", {1, 2, 3});
+    rows[1].status = "truncated";
+    rows[2].status = "corrupt";
+    rows.push_back(failedRow("paper1", "classic", 4));
+    const std::string some = stampLine(provenance, {study_, analysis_, rows, &plan});
+    EXPECT_THAT(some,
+                HasSubstr(", from 4 of 5 runs (1 failed, 1 truncated, 1 corrupt; no runs of: quiet): `"));
+    EXPECT_THAT(some, Not(HasSubstr("/some/folder")));
+    world.runs.resize(1);
+    plan.skipped.clear();
+    rows.resize(1);
+    EXPECT_THAT(stampLine(provenance, {study_, analysis_, rows, &plan}), HasSubstr(", from 1 runs: `slamot"));
 }
 
 TEST(ProvenanceHere, KnowsDayAndMachine) {

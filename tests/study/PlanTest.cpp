@@ -141,6 +141,8 @@ TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
     expect(begin + config + "[grid]\nnoise = 1\n", 8, "expected section.key");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | | 2\n", 8, "separated by |");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | 1\n", 8, "twice");
+    expect(begin + config + "ekf_slamot.target.noise_std = 3\n[grid]\nekf_slamot.target.noise_std = 1 | 2\n", 7,
+           "is a key of [grid] too");
     expect(begin + config + "[grid]\nekf_slamot.target.noise_std = 1 | one\n", 8, "noise_std = 'one'");
     expect("[study]\n[log.l]\nfiles = *.rawlog\n" + config + "[grid.scenario]\nworld.landmarks = 1\n", 6,
            "changes nothing");

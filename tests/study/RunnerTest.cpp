@@ -2,11 +2,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include "../../libs/study/src/FigureNames.h"
 #include "StudyFolder.h"
+#include "slamot/rawlog/LogError.h"
 #include "slamot/rawlog/RawlogWriter.h"
 #include "slamot/run/RunJob.h"
 #include "slamot/sim/Simulation.h"
 #include "slamot/study/Runner.h"
+#include "support/Expect.h"
 
 namespace slamot::study {
 namespace {
@@ -59,6 +62,17 @@ TEST_F(RunnerTest, RowsHaveMetricsSeriesAndCosts) {
         EXPECT_FALSE(row.cost.host.empty());
     }
     EXPECT_NE(rows[0].estimate_hash, rows[1].estimate_hash);
+}
+
+TEST_F(RunnerTest, EveryMetricOfARowIsAFigure) {
+    const std::vector<Row> rows = run(plan(usual("1")));
+    ASSERT_FALSE(rows.empty());
+    for (const Row& row : rows) {
+        EXPECT_EQ(row.metrics.count("counts.detections_used"), 1u);
+        for (const auto& [name, value] : row.metrics) EXPECT_TRUE(isFigure(name)) << name;
+    }
+    EXPECT_FALSE(isFigure("counts.landmark"));
+    EXPECT_EQ(nearestFigure("counts.landmark"), "counts.landmarks");
 }
 
 TEST_F(RunnerTest, ThreadsShardsAndInterruptionsGiveTheSameRows) {
@@ -170,6 +184,39 @@ TEST_F(RunnerTest, AFailingRunIsARowWithItsReason) {
     }
     std::filesystem::remove(folder.path("field.ini"));  // read when the plan was made
     EXPECT_EQ(identities(run(laid)), identities(rows));
+}
+
+TEST_F(RunnerTest, ReasonsNameNeitherTheWorldNorTheLogsFolder) {
+    const Plan simulated = plan(usual("1"));
+    const std::string log = writeWorld(simulated, 0, "cut.rawlog");
+    std::filesystem::resize_file(log, std::filesystem::file_size(log) * 2 / 3);
+    const Plan laid = plan(
+        "[study]\n[log.mine]\nfiles = cut.rawlog\nconfig = ekf.ini\n"
+        "[config.seeing]\n[config.blind]\nidentities.landmarks = hidden\n");
+    const std::vector<Row> rows = run(laid);
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_THAT(rows[0].reason, testing::StartsWith("cut.rawlog: "));
+    EXPECT_EQ(rows[1].status, "failed");
+    EXPECT_THAT(rows[1].reason, testing::StartsWith("ekf_slamot had no use"));
+}
+
+TEST_F(RunnerTest, FilesInTheWayEndTheStudyInsteadOfBeingRows) {
+    const Plan laid = plan(usual("1"));
+    RunnerOptions options;
+    options.unit.keep_folder = folder.path("kept");
+    std::filesystem::create_directories(folder.path("kept/near-1"));
+    folder.write("kept/near-1/invariant", "in the way");
+    EXPECT_THAT(test::messageOf<LogError>([&] { run(laid, options); }), HasSubstr("kept/near-1/invariant"));
+    folder.write("file", "in the way");
+    options.unit.keep_folder = folder.path("file");
+    EXPECT_THAT(test::messageOf<LogError>([&] { run(laid, options); }), HasSubstr("file"));
+}
+
+TEST_F(RunnerTest, ALogThatIsGoneEndsTheStudy) {
+    const std::string log = writeWorld(plan(usual("1")), 0, "mine.rawlog");
+    const Plan laid = plan("[study]\n[log.mine]\nfiles = mine.rawlog\nconfig = ekf.ini\n[config.a]\n");
+    std::filesystem::remove(log);
+    EXPECT_THAT(test::messageOf<LogError>([&] { run(laid); }), HasSubstr("mine.rawlog"));
 }
 
 TEST_F(RunnerTest, KeepsCompleteFoldersWhenAskedAndTheSameRows) {

@@ -92,6 +92,19 @@ TEST_F(SeriesTest, WithoutTruthOnlyWhatNeedsNone) {
     EXPECT_EQ(all.count("landmark_count"), 1u);
 }
 
+TEST_F(SeriesTest, OnlyNeesHasDimensions) {
+    record.tracks[at(1)] = {track(4, {10, 1}, 4, 0.9, {0.5, 0.5})};
+    const auto all = series({"robot_nees", "robot_error", "heading_error", "target_error", "target_nees",
+                             "landmark_count", "p_cv"});
+    EXPECT_EQ(all.size(), 7u);
+    for (const auto& [name, one] : all) {
+        EXPECT_FALSE(one.value.empty()) << name;
+        EXPECT_EQ(one.dimension.size(), isNeesSeries(name) ? one.value.size() : 0u) << name;
+    }
+    EXPECT_TRUE(isNeesSeries("target_nees"));
+    EXPECT_FALSE(isNeesSeries("p_nees"));
+}
+
 TEST_F(SeriesTest, UnknownNamesAreMistakes) {
     EXPECT_NO_THROW(requireKnownSeries({"robot_nees", "p_cv"}, "a.ini:3"));
     const std::string told =

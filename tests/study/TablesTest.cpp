@@ -134,7 +134,7 @@ TEST(ConsistencyTable, PartsOfTheStepsInTheBand) {
         shown(table),
         ElementsAre("config | runs | ANEES | expected | steps in band | above (over-confident) | below",
                     "classic | 1 | 9.00 | 3.00 | 50.0 % | 25.0 % | 25.0 %",
-                    "invariant | 0 | – | – | – | – | –"));
+                    "invariant | 0 of 1 | – | – | – | – | –"));
 }
 
 TEST(DivergenceTable, RatesWithIntervals) {

@@ -86,7 +86,11 @@ class Study(SlamotTest):
         for k in (1, 2):
             self.study(f"shard{k}.db", "--shard", f"{k}/2")
             self.assertEqual(len(self.rows(f"shard{k}.db")), RUNS / 2)
-        half = self.study("merged.db", "--merge", "shard1.db")
+        # A part is merged, told and no success, quiet or not.
+        half = subprocess.run([PROGRAM, "-q", "study", "small.ini", "--db", "merged.db", "--merge", "gone.db", "shard1.db"],
+                              cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_SECONDS)
+        self.assertEqual(half.returncode, 1)
+        self.assertIn("gone.db: is not there", half.stderr)
         self.assertIn("30 of 60 runs are there", half.stderr)
         self.study("merged.db", "--merge", "shard1.db", "shard2.db")
         self.assertEqual(self.rows("merged.db"), serial)
@@ -94,13 +98,18 @@ class Study(SlamotTest):
     def test_a_failing_run_is_a_row_and_its_reason_is_told(self):
         done = self.study("a.db")
         self.assertIn("60 of 60 runs are there, of which 12 failed", done.stderr)
-        self.assertIn("blind on near", done.stderr)
+        self.assertIn("12 x blind on near", done.stderr)
         failed = [row for row in self.rows("a.db") if row[8] == "failed"]
         self.assertEqual({row[3] for row in failed}, {"blind"})
         self.assertIn("identities", failed[0][9])
         # Failed rows are results: not run again unless asked for.
         self.assertIn("nothing was run", self.study("a.db").stdout)
+        before = self.rows("a.db")
         self.assertIn("12 runs, 12 failed", self.study("a.db", "--retry-failed").stdout)
+        self.assertEqual(self.rows("a.db"), before)
+        for other in (["--list"], ["--no-run"], ["--merge", "a.db"]):
+            self.study("a.db", "--retry-failed", *other, code=2)
+        self.assertEqual(self.rows("a.db"), before)
 
     def test_a_longer_study_takes_over_the_shorter_ones_rows(self):
         self.study("a.db", "--short")
@@ -180,14 +189,39 @@ class Study(SlamotTest):
         run = self.mpi(3, "ranks.db")
         self.addCleanup(run.kill)
         self.waitForRows("ranks.db", run)
-        # The ranks are mpirun's children, in the order of their numbers.
-        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
-        ranks = [int(pid) for pid in children if "slamot_study_mp" in pathlib.Path(f"/proc/{pid}/comm").read_text()]
+        ranks = self.ranksOf(run)
         self.assertEqual(len(ranks), 3)
         os.kill(ranks[-1], signal.SIGKILL)
         run.communicate(timeout=TIMEOUT_SECONDS)
         self.assertNotEqual(run.returncode, 0)
         self.finishAndCompare("ranks.db")
+
+    def ranksOf(self, run):
+        # The ranks are mpirun's children, in the order of their numbers.
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        return [int(pid) for pid in children if "slamot_study_mp" in pathlib.Path(f"/proc/{pid}/comm").read_text()]
+
+    def test_a_stopped_rank_leaves_its_work_to_the_others(self):
+        self.files(steps=400)
+        run = self.mpi(3, "one.db")
+        self.addCleanup(run.kill)
+        self.waitForRows("one.db", run)
+        os.kill(self.ranksOf(run)[-1], signal.SIGTERM)
+        _, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertEqual(run.returncode, 0, stderr)
+        self.assertEqual(self.rows("one.db"), self.serial())
+
+    def test_all_ranks_stopped_is_no_success(self):
+        self.files(steps=400)
+        run = self.mpi(3, "all.db")
+        self.addCleanup(run.kill)
+        self.waitForRows("all.db", run)
+        for pid in self.ranksOf(run)[1:]:
+            os.kill(pid, signal.SIGTERM)
+        _, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertNotEqual(run.returncode, 0, stderr)
+        self.assertIn("the same command does the rest", stderr)
+        self.finishAndCompare("all.db")
 
     def test_mpi_mistakes_are_told_once(self):
         run = self.mpi(3, "ranks.db", "--replicates", "0")
@@ -203,10 +237,11 @@ class Study(SlamotTest):
         if not shutil.which("parallel"):
             self.skipTest("no GNU parallel (package parallel)")
         script = SOURCE / "scripts/study_parallel.sh"
-        done = subprocess.run([script, "small.ini", "a b.db", "3"], cwd=self.folder, capture_output=True, text=True,
+        done = subprocess.run([script, "small.ini", "a b.db", "3", "--export", "out", "--threads", "1"], cwd=self.folder, capture_output=True, text=True,
                               env={**os.environ, "SLAMOT": PROGRAM}, timeout=TIMEOUT_SECONDS)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.rows("a b.db"), self.serial())
+        self.assertTrue(any(self.path("out").iterdir()))
 
     def test_scripts_refuse_bad_usage(self):
         for name, tool in (("study_parallel", "parallel"), ("study_slurm", None)):
@@ -260,16 +295,19 @@ class Study(SlamotTest):
         # Other contents are another world.
         file = self.path("sets/track/odometry.csv")
         file.write_text(file.read_text().replace("1,0", "2,0"))
-        shutil.rmtree(imported.parent)
+        self.study("a.db", env=sets)
+        self.assertEqual(len(self.rows("a.db")), 4)
         # A killed import leaves a folder that may not be taken for the logs.
-        (imported.parent.parent / (imported.parent.name + ".part")).mkdir()
+        for folder in self.path("imported_logs").glob("track-*/"):
+            folder.with_name(folder.name + ".part").mkdir()
+            shutil.rmtree(folder)
         self.study("a.db", env=sets)
         self.assertEqual(len(self.rows("a.db")), 4)
 
     def test_list_shows_worlds_and_keys_and_runs_nothing(self):
         listed = self.study("a.db", "--list", "--short").stdout
         self.assertIn("4 worlds, 10 runs", listed)
-        self.assertEqual(self.rows("a.db"), [])
+        self.assertFalse(self.path("a.db").exists())
         self.study("a.db", "--short")
         for row in self.rows("a.db"):
             self.assertIn(f"  {row[0]} {row[3]}", listed)
@@ -286,7 +324,9 @@ class Study(SlamotTest):
                ("study", "small.ini", "--db", "a.db", "--shard", "3/2"),
                ("study", "small.ini", "--db", "a.db", "--shard", "1"),
                ("study", "small.ini", "--db", "ekf.ini"), ("study", "small.ini"),
-               ("study", "small.ini", "--db", "a.db", "--merge", "gone.db")]
+               ("study", "small.ini", "--db", "a.db", "--shard", "1/2", "--check"),
+               ("study", "small.ini", "--db", "a.db", "--shard", "1/2", "--export", "out"),
+               ("study", "small.ini", "--db", "a.db", "--shard", "1/2", "--fill", "page.md")]
         for arguments in bad:
             self.slamot(*arguments, code=2)
         self.write("small.ini", STUDY.replace("file = ekf.ini\nekf", "file = ekf.ini\nekff"))

@@ -92,14 +92,15 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
 
 /// The command that makes a page again.
 std::string commandOf(const Options& options, const std::string& page) {
-    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file, options.session.store_file, page);
+    return fmt::format("slamot study {} --db {} --fill {}", options.session.study_file,
+                       options.session.store_file, page);
 }
 
 /// What the rows say, where it was asked for; false when a check failed.
 bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
     if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
     const std::vector<study::Row> rows = session.rows();
-    const study::Findings findings{session.plan().study, analysis, rows};
+    const study::Findings findings{session.plan().study, analysis, rows, &session.plan()};
     study::CheckReport checks;
     if (options.check) {
         checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
@@ -107,41 +108,69 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     }
     if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
     for (const std::string& page : options.pages)
-        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)), options.check ? &checks : nullptr);
+        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)),
+                        options.check ? &checks : nullptr);
     return !options.check || checks.passed();
+}
+
+void requireOptionsThatFit(const Options& options) {
+    const bool runs = !options.list && !options.no_run && options.merge.empty();
+    if (options.session.retry_failed && !runs)
+        throw UsageError("--retry-failed: expected without --list, --no-run and --merge, which run nothing");
+    if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty()))
+        throw UsageError(
+            "--shard: expected without --check, --export and --fill, which need all rows; "
+            "give them when merging");
+}
+
+/// Only looks: no file of rows is made.
+void listPlan(const Options& options, const study::Shard& shard, const PluginRegistry& registry) {
+    const study::Plan plan = study::planOf(options.session, registry);
+    for (const std::string& sentence : plan.skipped) fmt::print(stderr, "slamot: {}\n", sentence);
+    const std::string& file = options.session.store_file;
+    printPlan(
+        plan,
+        std::filesystem::exists(file) ? study::Store(file, plan.study).done(plan) : std::set<std::string>(),
+        shard);
 }
 
 int studyJob(const Options& options, const Verbosity& verbosity) {
     const auto begin = std::chrono::steady_clock::now();
     const study::Shard shard = shardFrom(options.shard);
+    requireOptionsThatFit(options);
     const std::filesystem::path folder = std::filesystem::path(options.session.store_file).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
         throw UsageError(
             fmt::format("--db {}: there is no folder {}", options.session.store_file, folder.string()));
 
     const PluginRegistry registry = PluginRegistry::discover();
+    if (options.list) {
+        listPlan(options, shard, registry);
+        return exit_success;
+    }
     study::Session session(options.session, registry);
     // A mistake in a table must not come to light after hours of runs.
     const study::Analysis analysis = study::readAnalysis(session.plan().study);
     if (options.check && analysis.checks.empty())
-        throw UsageError(fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
+        throw UsageError(
+            fmt::format("--check: {} has no [check.NAME] to compare with", options.session.study_file));
     for (const std::string& sentence : session.plan().skipped) fmt::print(stderr, "slamot: {}\n", sentence);
-    if (options.list) {
-        printPlan(session.plan(), session.store().done(session.plan(), true), shard);
-        return exit_success;
-    }
     bool complete = true;
-    if (!options.merge.empty())
-        session.store().merge(options.merge);
+    const bool merging = !options.merge.empty();
+    if (merging)
+        for (const std::string& sentence : session.merge(options.merge))
+            fmt::print(stderr, "slamot: {}\n", sentence);
     else if (!options.no_run)
         complete = runMissing(session, options, shard, registry, begin, verbosity);
+    const bool merged_in_part = merging && !session.isComplete();
     const std::string state = session.stateInWords();
-    if (state.find('\n') != std::string::npos)
+    if (merged_in_part || state.find('\n') != std::string::npos)
         fmt::print(stderr, "slamot: {}\n", state);
     else if (!verbosity.quiet)
         fmt::print("{}\n", state);
-    if (!complete) throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
-    return tellFindings(session, analysis, options) ? exit_success : exit_failed;
+    if (!complete)
+        throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
+    return tellFindings(session, analysis, options) && !merged_in_part ? exit_success : exit_failed;
 }
 
 }  // namespace
@@ -152,12 +181,19 @@ void addStudy(CLI::App& app, Action& chosen) {
         "Many runs by one file: scenarios or logs, configs, grids and seeds.\nExample: slamot "
         "study config/studies/consistency.ini --db consistency.db --threads 2");
     auto options = std::make_shared<Options>();
+    // An unset variable of a script: SQLite would keep the rows nowhere, and every node would run everything.
+    const CLI::Validator notEmpty(
+        [](const std::string& text) {
+            return text.empty() ? std::string("expected something, not ''") : std::string();
+        },
+        "");
     command->add_option("study", options->session.study_file, "Study INI file (doc/studies.md)")->required();
     command
         ->add_option("--db", options->session.store_file,
                      "SQLite file of the rows; what it has is not run again")
+        ->check(notEmpty)
         ->required();
-    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts");
+    command->add_option("--shard", options->shard, "k/K: only the k-th of K equal parts")->check(notEmpty);
     command->add_option("--threads", options->threads, "Runs at the same time; rows do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
@@ -169,16 +205,16 @@ void addStudy(CLI::App& app, Action& chosen) {
     command->add_flag("--list", options->list, "Print worlds, runs and keys; run nothing");
     command->add_option("--keep", options->keep, "Folder for the complete outputs of every run");
     command->add_flag("--no-run", options->no_run, "Run nothing: only what the rows there are say");
-    command->add_flag("--check", options->check, "Compare with the intervals of [check.*]; exit 1 when one fails");
-    command->add_option("--export", options->export_folder, "Folder for all rows, statistics, tables and figures");
+    command->add_flag("--check", options->check,
+                      "Compare with the intervals of [check.*]; exit 1 when one fails");
+    command->add_option("--export", options->export_folder,
+                        "Folder for all rows, statistics, tables and figures");
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
     command->add_flag("--retry-failed", options->session.retry_failed, "Run failed rows again");
     command->add_flag("--any-build", options->session.any_build,
                       "Keep rows that another build of the program made");
     command->callback([&chosen, options] {
         if (options->replicates > 0) options->session.replicates = options->replicates;
-        // Looking at the plan uses no row.
-        if (options->list) options->session.any_build = true;
         chosen = [options](const Verbosity& v) { return studyJob(*options, v); };
     });
 }

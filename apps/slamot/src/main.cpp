@@ -1,6 +1,5 @@
 // slamot: one program, one source file per subcommand.
 #include <fmt/format.h>
-#include <mrpt/core/exceptions.h>
 
 #include <algorithm>
 #include <csignal>
@@ -11,6 +10,7 @@
 #include "slamot/core/Version.h"
 #include "slamot/core/config/Config.h"
 #include "slamot/core/config/Parameters.h"
+#include "slamot/core/plugin/ErrorText.h"
 #include "slamot/core/plugin/PluginRegistry.h"
 #include "slamot/rawlog/LogError.h"
 
@@ -86,14 +86,6 @@ int runMain(int argc, char** argv) {
     return code;
 }
 
-/// One line: MRPT's exceptions come with a call stack.
-std::string sentenceOf(const std::exception& error) {
-    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    std::string text = with_stack ? with_stack->originalWhat : error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 }  // namespace
 
 CLI::Validator wholeNumber() {
@@ -118,7 +110,7 @@ std::string ownProgram() {
 
 int main(int argc, char** argv) {
     const auto fail = [](const std::exception& error, int code) {
-        fmt::print(stderr, "slamot: {}\n", slamot::app::sentenceOf(error));
+        fmt::print(stderr, "slamot: {}\n", slamot::sentenceOf(error));
         return slamot::app::interrupted() ? slamot::app::exit_failed : code;
     };
     try {

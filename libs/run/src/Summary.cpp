@@ -17,14 +17,36 @@ double peakMemoryMegabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+nlohmann::json countsJson(const PipelineCounts& counts, const Estimate& estimate) {
+    const Health& health = estimate.health;
+    return {{"odometry", counts.odometry},
+            {"odometry_gaps", counts.odometry_gaps},
+            {"scans", counts.scans},
+            {"detection_sets", counts.detection_sets},
+            {"detections", counts.detections},
+            {"detection_sets_extrapolated", counts.extrapolated},
+            {"detections_used", health.detections_used},
+            {"detections_inflated", health.detections_inflated},
+            {"detections_rejected", health.detections_rejected},
+            {"detections_ignored", health.detections_ignored},
+            {"landmarks", estimate.landmark_count},
+            {"tracks_at_end", estimate.tracks.size()}};
+}
+
 }  // namespace
+
+std::vector<std::string> summaryCountNames() {
+    std::vector<std::string> names;
+    const nlohmann::json counts = countsJson({}, {});
+    for (const auto& [name, count] : counts.items()) names.push_back(name);
+    return names;
+}
 
 nlohmann::json makeSummary(const SummaryInput& in) {
     nlohmann::json drops = nlohmann::json::array();
     for (const auto& [key, count] : in.drops.rows())
         drops.push_back({{"sensor", key.first}, {"reason", key.second}, {"count", count}});
 
-    const Health& health = in.end.estimate.health;
     const PipelineCounts& counts = *in.counts;
     nlohmann::json summary = {
         {"program", "slamot"},
@@ -38,19 +60,7 @@ nlohmann::json makeSummary(const SummaryInput& in) {
         {"threads", in.threads},
         {"config", in.canonical_config},
         {"estimate_sha256", in.estimate_hash},
-        {"counts",
-         {{"odometry", counts.odometry},
-          {"odometry_gaps", counts.odometry_gaps},
-          {"scans", counts.scans},
-          {"detection_sets", counts.detection_sets},
-          {"detections", counts.detections},
-          {"detection_sets_extrapolated", counts.extrapolated},
-          {"detections_used", health.detections_used},
-          {"detections_inflated", health.detections_inflated},
-          {"detections_rejected", health.detections_rejected},
-          {"detections_ignored", health.detections_ignored},
-          {"landmarks", in.end.estimate.landmark_count},
-          {"tracks_at_end", in.end.estimate.tracks.size()}}},
+        {"counts", countsJson(counts, in.end.estimate)},
         {"drops", drops},
         {"warnings", in.warnings},
         {"time",

@@ -13,8 +13,14 @@
 namespace slamot::study {
 namespace {
 
-bool hasFailed(const Row& row) {
-    return row.status == "failed";
+/// The errors were measured: a truth was there. Where the rmse is not finite, the row lacks it nonetheless.
+bool hasTruth(const Row& row) {
+    return row.metrics.count("robot.position.count") > 0;
+}
+
+/// As figureOf(Cell) has it.
+double figureOfEnded(const Row& row, const std::string& figure) {
+    return hasFailed(row) ? Statistic::none : figureOf(row, figure);
 }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -32,7 +38,25 @@ std::vector<double> ranksOf(const std::vector<double>& values) {
     return ranks;
 }
 
+using Values = std::map<std::string, double>;  // by variant
+
+/// In the order of `variants`; empty where one of them has no value or none a finite one.
+std::vector<double> ranksAt(const Values& by_variant, const std::vector<std::string>& variants) {
+    std::vector<double> values;
+    for (const std::string& variant : variants)
+        if (const auto found = by_variant.find(variant); found != by_variant.end())
+            values.push_back(found->second);
+    const bool one_ended =
+        std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    if (values.size() != variants.size() || !one_ended) return {};
+    return ranksOf(values);
+}
+
 }  // namespace
+
+bool hasFailed(const Row& row) {
+    return row.status == "failed";
+}
 
 std::vector<Cell> cellsOf(const std::vector<Row>& rows) {
     std::vector<Cell> cells;
@@ -51,7 +75,7 @@ std::vector<Cell> cellsOf(const std::vector<Row>& rows) {
 
 std::vector<double> figureOf(const Cell& cell, const std::string& figure) {
     std::vector<double> values;
-    for (const Row* row : cell.rows) values.push_back(figureOf(*row, figure));
+    for (const Row* row : cell.rows) values.push_back(figureOfEnded(*row, figure));
     return values;
 }
 
@@ -60,13 +84,13 @@ Paired compare(const Cell& a, const Cell& b, const std::string& figure) {
         throw std::invalid_argument(
             fmt::format("runs of '{}' and '{}' are not of the same worlds", a.source, b.source));
     std::map<int, double> value_of_b;  // by replicate
-    for (const Row* row : b.rows) value_of_b[row->replicate] = figureOf(*row, figure);
+    for (const Row* row : b.rows) value_of_b[row->replicate] = figureOfEnded(*row, figure);
 
     Paired paired;
     std::vector<double> values_a, values_b, differences, ratios;
     for (const Row* row : a.rows) {
         const auto found = value_of_b.find(row->replicate);
-        const double in_a = figureOf(*row, figure);
+        const double in_a = figureOfEnded(*row, figure);
         if (found == value_of_b.end() || !std::isfinite(in_a) || !std::isfinite(found->second)) continue;
         const double in_b = found->second;
         values_a.push_back(in_a);
@@ -88,9 +112,9 @@ Divergence divergence(const Cell& cell, double diverged_above) {
     for (const Row* row : cell.rows) {
         const double rmse = figureOf(*row, "robot.position.rmse");
         failed += hasFailed(*row);
-        if (!hasFailed(*row) && std::isnan(rmse)) continue;
+        if (!hasFailed(*row) && !hasTruth(*row) && std::isnan(rmse)) continue;
         ++known;
-        diverged += hasFailed(*row) || rmse > diverged_above;
+        diverged += hasFailed(*row) || !std::isfinite(rmse) || rmse > diverged_above;
     }
     return {rateOf(diverged, known), failed};
 }
@@ -100,7 +124,7 @@ eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const 
     std::vector<eval::NeesSeries> runs;
     for (const Row* row : cell.rows) {
         const auto found = row->series.find(name);
-        if (found == row->series.end()) continue;
+        if (hasFailed(*row) || found == row->series.end()) continue;
         const Series& series = found->second;
         if (series.dimension.size() != series.value.size() || series.seconds.size() != series.value.size())
             return Result::absent(fmt::format("series '{}' has no dimensions, expected one of NEES", name));
@@ -116,27 +140,28 @@ eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const 
 
 std::vector<Ranked> rank(const std::vector<Row>& rows, const std::vector<std::string>& sources,
                          const std::vector<std::string>& variants, const std::string& figure) {
-    // A failed run is worse than any that ended. Nothing at all: the world does not count.
-    using Values = std::map<std::string, double>;
-    std::map<std::tuple<std::string, GridPoint, GridPoint, int>, Values> worlds;
+    // A failed run is worse than any that ended.
+    using Points = std::map<std::pair<GridPoint, GridPoint>, Values>;
+    std::map<std::pair<std::string, int>, Points> worlds;
     for (const Row& row : rows) {
         if (!contains(sources, row.source) || !contains(variants, row.variant)) continue;
         const double value = hasFailed(row) ? std::numeric_limits<double>::infinity() : figureOf(row, figure);
         if (!std::isnan(value))
-            worlds[{row.source, row.scenario_point, row.config_point, row.replicate}][row.variant] = value;
+            worlds[{row.source, row.replicate}][{row.scenario_point, row.config_point}][row.variant] = value;
     }
 
     std::vector<std::vector<double>> ranks(variants.size());
-    for (const auto& [world, by_variant] : worlds) {
-        std::vector<double> values;
-        for (const std::string& variant : variants)
-            if (const auto found = by_variant.find(variant); found != by_variant.end())
-                values.push_back(found->second);
-        const bool one_ended =
-            std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-        if (values.size() != variants.size() || !one_ended) continue;
-        const std::vector<double> here = ranksOf(values);
-        for (std::size_t i = 0; i < variants.size(); ++i) ranks[i].push_back(here[i]);
+    for (const auto& [world, points] : worlds) {
+        std::vector<double> sums(variants.size(), 0);
+        int count = 0;
+        for (const auto& [point, by_variant] : points) {
+            const std::vector<double> here = ranksAt(by_variant, variants);
+            if (here.empty()) continue;
+            ++count;
+            for (std::size_t i = 0; i < variants.size(); ++i) sums[i] += here[i];
+        }
+        if (count == 0) continue;
+        for (std::size_t i = 0; i < variants.size(); ++i) ranks[i].push_back(sums[i] / count);
     }
 
     std::vector<Ranked> result;

@@ -124,8 +124,4 @@ Analysis readAnalysis(const StudyFile& study) {
     return analysis;
 }
 
-void validateAnalysis(const StudyFile& study) {
-    readAnalysis(study);
-}
-
 }  // namespace slamot::study

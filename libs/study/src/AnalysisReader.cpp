@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "FigureNames.h"
+#include "slamot/study/Series.h"
 
 namespace slamot::study {
 namespace {
@@ -123,10 +124,8 @@ void requireSeries(const StudyFile& study, const std::string& section, const std
 void requireNees(const StudyFile& study, const std::string& section, const std::string& key,
                  const std::vector<std::string>& series) {
     requireSeries(study, section, key, series);
-    const std::string ending = "_nees";
     for (const std::string& name : series)
-        if (name.size() < ending.size() ||
-            name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
+        if (!isNeesSeries(name))
             refuse(study.text.section(section).at(key), section,
                    fmt::format("series '{}' has no chi-square band, expected one of NEES (..._nees)", name));
 }

@@ -3,36 +3,16 @@
 #include <algorithm>
 
 #include "AnalysisReader.h"
+#include "CheckStatistic.h"
 #include "Words.h"
 
 namespace slamot::study {
 namespace {
 
-const std::vector<std::pair<std::string, CheckStatistic>> statistic_names = {
-    {"mean", CheckStatistic::mean},
-    {"median", CheckStatistic::median},
-    {"minimum", CheckStatistic::minimum},
-    {"maximum", CheckStatistic::maximum},
-    {"ratio", CheckStatistic::ratio},
-    {"median_ratio", CheckStatistic::median_ratio},
-    {"ratio_of_means", CheckStatistic::ratio_of_means},
-    {"mean_difference", CheckStatistic::mean_difference},
-    {"median_difference", CheckStatistic::median_difference},
-    {"smaller", CheckStatistic::smaller},
-    {"anees", CheckStatistic::anees},
-    {"inside", CheckStatistic::inside},
-    {"above", CheckStatistic::above},
-    {"below", CheckStatistic::below},
-    {"rate", CheckStatistic::rate}};
-
-bool isBetween(CheckStatistic statistic, CheckStatistic first, CheckStatistic last) {
-    return first <= statistic && statistic <= last;
-}
-bool isPaired(CheckStatistic s) {
-    return isBetween(s, CheckStatistic::ratio, CheckStatistic::smaller);
-}
-bool isOfSeries(CheckStatistic s) {
-    return isBetween(s, CheckStatistic::anees, CheckStatistic::below);
+std::vector<std::pair<std::string, const CheckStatistic*>> statisticNames() {
+    std::vector<std::pair<std::string, const CheckStatistic*>> names;
+    for (const CheckStatistic& statistic : checkStatistics()) names.emplace_back(statistic.name, &statistic);
+    return names;
 }
 
 const Variant& variantOf(const StudyFile& study, const std::string& name) {
@@ -91,16 +71,17 @@ ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string
     table.text("source", spec.source, "Of which source.")
         .text("config", spec.config, "Of which config.")
         .text("where", where, "Of which point of the grid: address=value; address=value.")
-        .choice("statistic", spec.statistic, statistic_names, "What of all runs.");
-    if (isPaired(spec.statistic))
+        .choice("statistic", spec.statistic, statisticNames(), "What of all runs.");
+    if (spec.statistic->ofPairs())
         table.text("against", spec.against, "The config compared with, world by world.");
-    if (isOfSeries(spec.statistic)) {
+    if (spec.statistic->ofSeries()) {
         table.text("series", spec.series, "A series of NEES.");
-    } else if (spec.statistic != CheckStatistic::rate) {
+    } else if (spec.statistic->ofFigure()) {
         table.text("figure", spec.figure, "A metric or cost of a run.");
-        table.real("missing", spec.missing, "-", Interval::probability(),
-                   "Largest part of the runs that may be without the figure: failed ones.");
     }
+    if (spec.statistic->ofFigure() || spec.statistic->ofSeries())
+        table.real("missing", spec.missing, "-", Interval::probability(),
+                   "Largest part of the runs that may be without the figure or series: failed ones.");
     addBounds(table, "interval", spec.interval, "Where it must lie in the full study.");
     addBounds(table, "short_interval", short_interval, "In the short form; absent: not checked there.");
     table.text("about", spec.about, "Why these bounds.");
@@ -113,7 +94,7 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
     const Config& config = study.text;
     CheckSpec spec;
     spec.name = nameOf(config, section, "check.");
-    spec.statistic = requiredChoice(config, section, "statistic", statistic_names);
+    spec.statistic = requiredChoice(config, section, "statistic", statisticNames());
     eval::Band short_interval;
     std::string where;
     load(describe(spec, short_interval, where), config);
@@ -130,10 +111,10 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
             refuse(entry, section, fmt::format("config '{}' does not run on source '{}'", name, spec.source));
     };
     requireRun("config", spec.config);
-    if (isPaired(spec.statistic)) requireRun("against", spec.against);
-    if (isOfSeries(spec.statistic))
+    if (spec.statistic->ofPairs()) requireRun("against", spec.against);
+    if (spec.statistic->ofSeries())
         requireNees(study, section, "series", {spec.series});
-    else if (spec.statistic != CheckStatistic::rate)
+    else if (spec.statistic->ofFigure())
         requireFigures(study, section, "figure", {spec.figure});
 
     const GridPoint wanted = readWhere(study, section);

@@ -7,6 +7,7 @@
 #include <map>
 #include <variant>
 
+#include "CheckStatistic.h"
 #include "CsvLine.h"
 #include "NumberText.h"
 #include "Selected.h"
@@ -16,11 +17,6 @@ namespace {
 
 /// A value, or why there is none.
 using Outcome = std::variant<double, std::string>;
-
-Outcome valueOr(double value, const std::string& reason) {
-    if (std::isnan(value)) return reason;
-    return value;
-}
 
 /// The cell as far as it has been run, and how many runs the plan has of it.
 struct PlannedCell {
@@ -49,99 +45,82 @@ PlannedCell plannedCell(const Plan& plan, const std::map<std::string, const Row*
     return result;
 }
 
-/// Why a cell cannot be judged; empty when it can.
-std::string faultOf(const PlannedCell& planned, const CheckSpec& check, const Plan& plan) {
+/// Failed, or without the figure or series.
+bool lacks(const Row& row, const CheckSpec& check) {
+    if (hasFailed(row)) return true;
+    if (check.series.empty()) return !std::isfinite(figureOf(row, check.figure));
+    const auto found = row.series.find(check.series);
+    return found == row.series.end() || found->second.value.empty();
+}
+
+/// What keeps a cell from being judged, or what to know about it when it can be.
+struct Judgement {
+    bool possible = true;
+    std::string words;
+};
+
+Judgement judge(const PlannedCell& planned, const CheckSpec& check, const Plan& plan) {
     const Cell& cell = planned.cell;
     if (planned.planned == 0) {
         std::string why = fmt::format("source '{}' has no world here", cell.source);
         for (const std::string& reason : plan.skipped) why += "; " + reason;
-        return why;
+        return {false, why};
     }
     if (cell.rows.size() < planned.planned)
-        return fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
-                           planned.planned, cell.variant);
-    if (check.figure.empty()) return {};
+        return {false, fmt::format("{} of {} runs of '{}' are missing", planned.planned - cell.rows.size(),
+                                   planned.planned, cell.variant)};
+    if (check.figure.empty() && check.series.empty()) return {};  // the rate counts failed runs itself
     std::size_t without = 0;
     std::string example;
     for (const Row* row : cell.rows)
-        if (!std::isfinite(figureOf(*row, check.figure))) {
+        if (lacks(*row, check)) {
             ++without;
             if (example.empty()) example = row->reason;
         }
-    if (static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned)) return {};
-    return fmt::format("{} of {} runs of '{}' are without the figure{}{}", without, planned.planned,
-                       cell.variant, example.empty() ? "" : ", the first since: ", example);
+    if (without == 0) return {};
+    return {static_cast<double>(without) <= check.missing * static_cast<double>(planned.planned),
+            fmt::format("{} of {} runs of '{}' are without the {}{}{}", without, planned.planned,
+                        cell.variant, check.series.empty() ? "figure" : "series",
+                        example.empty() ? "" : ", the first since: ", example)};
 }
 
-Outcome ofSeries(const CheckSpec& check, const Cell& cell) {
-    const auto measured = consistencyOf(cell, check.series);
-    if (!measured) return measured.whyAbsent();
-    switch (check.statistic) {
-        case CheckStatistic::anees:
-            return measured->average;
-        case CheckStatistic::inside:
-            return measured->inside;
-        case CheckStatistic::above:
-            return measured->above;
-        default:
-            return measured->below;
-    }
-}
+/// What the check's statistic has to be told.
+class Evaluation {
+  public:
+    Evaluation(const CheckSpec& check, const Cell& cell, const Cell& against, double factor,
+               double diverged_above)
+        : check_(check), cell_(cell), against_(against), factor_(factor), diverged_above_(diverged_above) {}
 
-Outcome ofPairs(const CheckSpec& check, const Cell& cell, const Cell& against, double factor) {
-    const Paired pair = compare(cell, against, check.figure);
-    const std::string none = "no world has the figure in both configs, as something to divide by";
-    switch (check.statistic) {
-        case CheckStatistic::ratio:
-            return valueOr(pair.ratio.mean, none);
-        case CheckStatistic::median_ratio:
-            return valueOr(pair.ratio.median, none);
-        case CheckStatistic::ratio_of_means:
-            return valueOr(pair.mean_a / pair.mean_b, none);
-        case CheckStatistic::mean_difference:
-            return valueOr(factor * pair.difference.mean, none);
-        case CheckStatistic::median_difference:
-            return valueOr(factor * pair.difference.median, none);
-        default:
-            return valueOr(static_cast<double>(pair.smaller) / static_cast<double>(pair.difference.count),
-                           none);
+    Outcome operator()(OfFigure value) const {
+        return inUnit(value(statisticOf(figureOf(cell_, check_.figure))), "no run has the figure");
     }
-}
+    Outcome operator()(OfPairs value) const {
+        return inUnit(value(compare(cell_, against_, check_.figure)),
+                      "no world has the figure in both configs, as something to divide by");
+    }
+    Outcome operator()(OfSeries value) const {
+        const auto measured = consistencyOf(cell_, check_.series);
+        if (!measured) return measured.whyAbsent();
+        return value(*measured);
+    }
+    Outcome operator()(OfDivergence value) const {
+        return inUnit(value(divergence(cell_, diverged_above_)), "no run says where the robot was in truth");
+    }
 
-Outcome ofFigure(const CheckSpec& check, const Cell& cell, double factor) {
-    const Statistic s = statisticOf(figureOf(cell, check.figure));
-    const std::string none = "no run has the figure";
-    switch (check.statistic) {
-        case CheckStatistic::mean:
-            return valueOr(factor * s.mean, none);
-        case CheckStatistic::median:
-            return valueOr(factor * s.median, none);
-        case CheckStatistic::minimum:
-            return valueOr(factor * s.minimum, none);
-        default:
-            return valueOr(factor * s.maximum, none);
+  private:
+    Outcome inUnit(double value, const std::string& why_none) const {
+        if (std::isnan(value)) return why_none;
+        return check_.statistic->in_unit ? factor_ * value : value;
     }
-}
+
+    const CheckSpec& check_;
+    const Cell &cell_, &against_;
+    double factor_, diverged_above_;
+};
 
 std::string describe(const CheckSpec& check, const Analysis& analysis) {
-    static const std::map<CheckStatistic, std::string> words = {
-        {CheckStatistic::mean, "mean of {}"},
-        {CheckStatistic::median, "median of {}"},
-        {CheckStatistic::minimum, "least {}"},
-        {CheckStatistic::maximum, "largest {}"},
-        {CheckStatistic::ratio, "mean ratio of {}"},
-        {CheckStatistic::median_ratio, "median ratio of {}"},
-        {CheckStatistic::ratio_of_means, "ratio of mean {}"},
-        {CheckStatistic::mean_difference, "mean difference of {}"},
-        {CheckStatistic::median_difference, "median difference of {}"},
-        {CheckStatistic::smaller, "part of worlds with the smaller {}"},
-        {CheckStatistic::anees, "average of {}"},
-        {CheckStatistic::inside, "steps in the band of {}"},
-        {CheckStatistic::above, "steps above the band of {}"},
-        {CheckStatistic::below, "steps below the band of {}"},
-        {CheckStatistic::rate, "part that diverged"}};
     const std::string& figure = check.figure.empty() ? check.series : check.figure;
-    std::string text = fmt::format(fmt::runtime(words.at(check.statistic)), analysis.label(figure));
+    std::string text = fmt::format(fmt::runtime(check.statistic->words), analysis.label(figure));
     text += fmt::format(", {}, {}", analysis.label(check.source), analysis.label(check.config));
     if (!check.against.empty()) text += " to " + analysis.label(check.against);
     for (const auto* point : {&check.scenario_point, &check.config_point})
@@ -180,22 +159,22 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
 
         result.state = CheckState::failed;
         const PlannedCell planned = plannedCell(plan, by_key, check, check.config);
-        result.reason = faultOf(planned, check, plan);
+        Judgement judgement = judge(planned, check, plan);
         PlannedCell against;
-        if (!check.against.empty() && result.reason.empty()) {
+        result.reason = judgement.words;
+        if (!check.against.empty() && judgement.possible) {
             against = plannedCell(plan, by_key, check, check.against);
-            result.reason = faultOf(against, check, plan);
+            judgement = judge(against, check, plan);
+            if (!judgement.possible || result.reason.empty())
+                result.reason = judgement.words;
+            else if (!judgement.words.empty())
+                result.reason += "; " + judgement.words;
         }
-        if (!result.reason.empty()) continue;
+        if (!judgement.possible) continue;
 
-        const double factor = analysis.factor(check.figure);
-        const Outcome outcome =
-            !check.series.empty()    ? ofSeries(check, planned.cell)
-            : !check.against.empty() ? ofPairs(check, planned.cell, against.cell, factor)
-            : check.figure.empty()
-                ? valueOr(divergence(planned.cell, plan.study.parameters.diverged_above).diverged.rate,
-                          "no run says where the robot was in truth")
-                : ofFigure(check, planned.cell, factor);
+        const Evaluation evaluation(check, planned.cell, against.cell, analysis.factor(check.figure),
+                                    plan.study.parameters.diverged_above);
+        const Outcome outcome = std::visit(evaluation, check.statistic->value);
         if (const double* value = std::get_if<double>(&outcome)) {
             result.value = *value;
             if (result.interval.contains(*value)) result.state = CheckState::passed;

@@ -7,6 +7,7 @@
 #include "CostFields.h"
 #include "CsvLine.h"
 #include "Selected.h"
+#include "StatisticFields.h"
 #include "slamot/report/Figure.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/run/PartFile.h"
@@ -50,14 +51,15 @@ class CellCsv {
     Words scenario_, config_;
 };
 
-const Words statistic_columns = {"n",          "mean",        "half_width", "deviation", "median",
-                                 "median_low", "median_high", "minimum",    "maximum"};
+const Words statistic_columns = [] {
+    Words columns = {"n"};
+    for (const StatisticField& number : statistic_fields) columns.push_back(number.name);
+    return columns;
+}();
 
 Words fieldsOf(const Statistic& s) {
     Words fields = {std::to_string(s.count)};
-    for (const double value :
-         {s.mean, s.half_width, s.deviation, s.median, s.median_low, s.median_high, s.minimum, s.maximum})
-        fields.push_back(csvNumber(value));
+    for (const StatisticField& number : statistic_fields) fields.push_back(csvNumber(s.*number.field));
     return fields;
 }
 

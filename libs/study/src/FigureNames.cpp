@@ -7,6 +7,7 @@
 #include "CostFields.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/eval/Metrics.h"
+#include "slamot/run/Summary.h"
 
 namespace slamot::study {
 namespace {
@@ -48,6 +49,7 @@ std::vector<std::string> namesOfMetrics() {
 const std::vector<std::string>& names() {
     static const std::vector<std::string> all = [] {
         std::vector<std::string> list = namesOfMetrics();
+        for (const std::string& count : run::summaryCountNames()) list.push_back("counts." + count);
         for (const auto& [cost, field] : cost_fields) list.push_back(std::string("cost.") + cost);
         return list;
     }();
@@ -57,8 +59,8 @@ const std::vector<std::string>& names() {
 }  // namespace
 
 bool isFigure(const std::string& name) {
-    // Targets and sensors have the names the log gives them, counts those of the run's summary.
-    for (const std::string open : {"targets.by_target.", "nis.", "counts."})
+    // Targets and sensors have the names the log gives them.
+    for (const std::string open : {"targets.by_target.", "nis."})
         if (name.rfind(open, 0) == 0) return true;
     return std::find(names().begin(), names().end(), name) != names().end();
 }

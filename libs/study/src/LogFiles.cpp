@@ -1,45 +1,25 @@
 #include "LogFiles.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glob.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
-#include "slamot/core/Version.h"
+#include "Digest.h"
+#include "FileLock.h"
 #include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/Importer.h"
 #include "slamot/rawlog/LogError.h"
-#include "slamot/rawlog/Sha256.h"
+#include "slamot/study/Build.h"
 
 namespace slamot::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Held by one program at a time; the system lets go of it when the program ends, however it ends.
-class FileLock {
-  public:
-    explicit FileLock(const std::string& file)
-        : descriptor_(open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-        int failed = descriptor_ < 0;
-        while (!failed && (failed = flock(descriptor_, LOCK_EX)) && errno == EINTR) failed = 0;
-        if (failed) throw LogError(fmt::format("{}: cannot be locked ({})", file, std::strerror(errno)));
-    }
-    ~FileLock() { close(descriptor_); }
-    FileLock(const FileLock&) = delete;
-    FileLock& operator=(const FileLock&) = delete;
-
-  private:
-    int descriptor_;
-};
 
 /// Where the datasets lie: SLAMOT_DATASETS or, for a study in a source tree, the folder beside the tree.
 fs::path datasetsFolder(const StudyFile& study) {
@@ -72,14 +52,24 @@ const Importer& importerOf(const StudyFile& study, const Source& source) {
                                   near ? " (did you mean '" + *near + "'?)" : "", fmt::join(formats, ", ")));
 }
 
-/// The folder with the imported logs, made when it is not there.
+/// Of the files' names, sizes and times of change.
+std::string digestOfFiles(const fs::path& data) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(data, fs::directory_options::follow_directory_symlink))
+        if (entry.is_regular_file())
+            files.push_back(fmt::format("{} {} {}", entry.path().lexically_relative(data).string(), entry.file_size(),
+                                        entry.last_write_time().time_since_epoch().count()));
+    std::sort(files.begin(), files.end());
+    return digestOf(files);
+}
+
+/// The folder with the imported logs, made when it is not there: another one for each state of the dataset and
+/// for each build.
 fs::path imported(const Importer& importer, const fs::path& data, const Source& source,
                   const std::string& work_folder) {
     const std::string made_from =
-        fmt::format("{}\n{}\n{}", importer.format, fs::absolute(data).string(), version);
-    Sha256 sum;
-    sum.add(made_from.data(), made_from.size());
-    const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, sum.hex().substr(0, 12));
+        digestOf({importer.format, fs::absolute(data).string(), digestOfFiles(data), buildOf({})});
+    const fs::path out = fs::path(work_folder) / fmt::format("{}-{}", source.name, made_from.substr(0, 12));
     std::error_code error;
     fs::create_directories(work_folder, error);
     if (error) throw LogError(fmt::format("{}: cannot be made ({})", work_folder, error.message()));
@@ -98,7 +88,7 @@ fs::path imported(const Importer& importer, const fs::path& data, const Source& 
 
 }  // namespace
 
-FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) {
+FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) try {
     const LogSourceFiles& wanted = *source.log;
     const Importer* importer = wanted.importer.empty() ? nullptr : &importerOf(study, source);
     fs::path folder = study.text.folder();
@@ -116,6 +106,9 @@ FoundLogs findLogs(const StudyFile& study, const Source& source, const std::stri
         return {{},
                 fmt::format("source {} is skipped: no {} in {}", source.name, wanted.files, folder.string())};
     return {files, {}};
+} catch (const fs::filesystem_error& error) {
+    throw LogError(fmt::format("source {}: {}: {}, expected files that can be read and a folder to write to",
+                               source.name, error.path1().string(), error.code().message()));
 }
 
 }  // namespace slamot::study

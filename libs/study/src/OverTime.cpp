@@ -17,7 +17,7 @@ std::vector<const Series*> seriesOf(const Cell& cell, const std::string& name) {
     std::vector<const Series*> runs;
     for (const Row* row : cell.rows)
         if (const auto found = row->series.find(name);
-            found != row->series.end() && !found->second.value.empty())
+            !hasFailed(*row) && found != row->series.end() && !found->second.value.empty())
             runs.push_back(&found->second);
     return runs;
 }

@@ -41,6 +41,27 @@ std::vector<std::string> linesOf(const std::string& file) {
     return lines;
 }
 
+/// "3 failed, 1 truncated": rows of runs that did not reach the end of their log.
+std::string otherEndings(const std::vector<Row>& rows) {
+    std::vector<std::string> counts;
+    for (const char* status : {"failed", "truncated", "corrupt", "stopped"}) {
+        const auto count =
+            std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return row.status == status; });
+        if (count > 0) counts.push_back(fmt::format("{} {}", count, status));
+    }
+    return fmt::format("{}", fmt::join(counts, ", "));
+}
+
+/// By name: the sentences of Plan::skipped hold paths of this machine.
+std::vector<std::string> sourcesWithoutWorld(const Plan& plan) {
+    std::set<std::string> with;
+    for (const WorldPlan& world : plan.worlds) with.insert(plan.sourceOf(world).name);
+    std::vector<std::string> without;
+    for (const Source& source : plan.study.sources)
+        if (with.count(source.name) == 0) without.push_back(source.name);
+    return without;
+}
+
 /// The words of `<!-- study NAME ... -->`; empty for any other line.
 std::vector<std::string> wordsOfMark(const std::string& line) {
     std::istringstream in(line);
@@ -101,11 +122,16 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
     std::set<std::string> hosts;
     for (const Row& row : rows)
         if (!row.cost.host.empty()) hosts.insert(row.cost.host);
-    const auto failed =
-        std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.status == "failed"; });
-    std::string line = fmt::format("Measured on {}, {}, {} {}, slamot {}, {} runs", p.date, p.processor,
-                                   p.cores, p.cores == 1 ? "core" : "cores", version, rows.size());
-    if (failed > 0) line += fmt::format(" ({} failed)", failed);
+    const Plan* plan = findings.plan;
+    std::string line =
+        fmt::format("Filled on {}, {}, {} {}, slamot {}, from {}{} runs", p.date, p.processor, p.cores,
+                    p.cores == 1 ? "core" : "cores", version, rows.size(),
+                    plan && plan->runCount() > rows.size() ? fmt::format(" of {}", plan->runCount()) : "");
+    std::vector<std::string> remarks;
+    if (const std::string endings = otherEndings(rows); !endings.empty()) remarks.push_back(endings);
+    if (plan && !plan->skipped.empty())
+        remarks.push_back(fmt::format("no runs of: {}", fmt::join(sourcesWithoutWorld(*plan), ", ")));
+    if (!remarks.empty()) line += fmt::format(" ({})", fmt::join(remarks, "; "));
     if (hosts.size() > 1) line += fmt::format(" on {} machines", hosts.size());
     return line + fmt::format(": `{}`", p.command);
 }

@@ -158,6 +158,13 @@ std::size_t Plan::runCount() const {
     return count;
 }
 
+std::set<std::string> Plan::keys() const {
+    std::set<std::string> all;
+    for (const WorldPlan& world : worlds)
+        for (const RunPlan& run : world.runs) all.insert(run.key);
+    return all;
+}
+
 std::string Plan::nameOf(const WorldPlan& world) const {
     const std::string point = study.scenario_grid.size() > 1 && kinds[world.kind].scenario
                                   ? fmt::format("-p{}", world.scenario_point + 1)

@@ -16,6 +16,15 @@ double figureOf(const Row& row, const std::string& name) {
     return found == row.metrics.end() ? Cost::none : found->second;
 }
 
+void setLabels(Row& row, const Plan& plan, const WorldPlan& world, const RunPlan& run) {
+    const bool simulated = plan.kinds[world.kind].scenario.has_value();
+    row.source = plan.sourceOf(world).name;
+    row.variant = plan.variantOf(run).name;
+    row.scenario_point = simulated ? plan.study.scenario_grid[world.scenario_point] : GridPoint();
+    row.config_point = plan.study.config_grid[run.config_point];
+    row.replicate = world.replicate;
+}
+
 std::string identity(const Row& row) {
     nlohmann::json json = toJson(row);
     json.erase("cost");

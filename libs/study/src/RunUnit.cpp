@@ -6,10 +6,18 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 
 #include "Meters.h"
 #include "World.h"
+#include "slamot/core/plugin/Detector.h"
+#include "slamot/core/plugin/ErrorText.h"
+#include "slamot/core/plugin/Estimator.h"
+#include "slamot/rawlog/LogError.h"
 #include "slamot/run/OutputFolder.h"
 #include "slamot/run/Run.h"
 #include "slamot/study/Runner.h"
@@ -17,14 +25,6 @@
 
 namespace slamot::study {
 namespace {
-
-/// MRPT's exceptions come with a call stack.
-std::string sentenceOf(const std::exception& error) {
-    const auto* with_stack = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    std::string text = with_stack ? with_stack->originalWhat : error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
 
 /// The part of a list that stands for its place: what it is about, where it says so.
 std::string placeOf(const nlohmann::json& item, std::size_t index) {
@@ -45,11 +45,7 @@ void flatten(const nlohmann::json& json, const std::string& name, std::map<std::
 Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
     Row row;
     row.key = run.key;
-    row.source = plan.sourceOf(world).name;
-    row.variant = plan.variantOf(run).name;
-    if (plan.kinds[world.kind].scenario) row.scenario_point = plan.study.scenario_grid[world.scenario_point];
-    row.config_point = plan.study.config_grid[run.config_point];
-    row.replicate = world.replicate;
+    setLabels(row, plan, world, run);
     row.world_seed = world.world_seed;
     row.estimator_seed = run.estimator_seed;
     row.build = plan.configs[run.config].build;
@@ -60,7 +56,6 @@ Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
 void fill(Row& row, const run::RunResult& result, const std::vector<std::string>& series,
           const LandmarkCounter& counter, const Truth* truth) {
     row.status = toText(result.status);
-    row.reason = result.end_message;
     row.estimate_hash = result.estimate_hash;
     flatten(result.summary["metrics"], "", row.metrics);
     flatten(result.summary["counts"], "counts", row.metrics);
@@ -71,14 +66,65 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     };
     row.cost.wall_s = number(time["wall_s"]);
     row.cost.step_ms_mean = number(time["step_ms"]["mean"]);
-    const double cpu_s = number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
-    row.cost.step_cpu_ms_mean = 1e3 * cpu_s / std::max(1.0, number(time["steps"]));
+    const double cpu_s =
+        number(time["predict_cpu_s"]) + number(time["detect_cpu_s"]) + number(time["update_cpu_s"]);
+    const double steps = number(time["steps"]);
+    row.cost.step_cpu_ms_mean = steps > 0 ? 1e3 * cpu_s / steps : Cost::none;
     row.cost.step_ms_p50 = number(time["step_ms"]["p50"]);
     row.cost.step_ms_p99 = number(time["step_ms"]["p99"]);
     row.cost.step_ms_max = number(time["step_ms"]["max"]);
 }
 
-/// Runs the config through the world; an exception is for the caller.
+/// What went wrong with writing, whatever it was: no fault of the method's.
+class OutputError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Tells the errors of another sink from those of the run.
+class CheckedSink : public run::Sink {
+  public:
+    explicit CheckedSink(run::Sink& sink) : sink_(sink) {}
+    void observation(const mrpt::obs::CObservation& observation) override {
+        checked([&] { sink_.observation(observation); });
+    }
+    void step(const run::Step& step) override {
+        checked([&] { sink_.step(step); });
+    }
+    void end(const run::RunEnd& end) override {
+        checked([&] { sink_.end(end); });
+    }
+
+  private:
+    template <class Function>
+    static void checked(const Function& function) {
+        try {
+            function();
+        } catch (const std::exception& error) {
+            throw OutputError(sentenceOf(error));
+        }
+    }
+    run::Sink& sink_;
+};
+
+/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is
+/// done: a plugin may throw what it likes. Outputs, memory and files are no fault of the method's: thrown on,
+/// they end the study. To be called within a catch.
+std::string sentenceOfFailure() {
+    try {
+        throw;
+    } catch (const OutputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::system_error&) {
+        throw;
+    } catch (const std::exception& error) {
+        return sentenceOf(error);
+    }
+}
+
+/// Runs the config through the world; an exception is one that ends the study.
 run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const World& world,
                        const std::string& folder, const PluginRegistry& registry,
                        const UnitOptions& options) {
@@ -97,16 +143,26 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
     input.stop = options.stop;
     input.sinks.push_back(&counter);
     std::optional<run::OutputFolder> output;
+    std::vector<std::unique_ptr<CheckedSink>> checked;
     if (!folder.empty()) {
         output.emplace(folder, assembled, "");
-        for (run::Sink* sink : output->sinks()) input.sinks.push_back(sink);
+        for (run::Sink* sink : output->sinks()) checked.push_back(std::make_unique<CheckedSink>(*sink));
+        for (const auto& sink : checked) input.sinks.push_back(sink.get());
     }
     const double cpu_begin = threadCpuSeconds();
-    const run::RunResult result = run::runSource(assembled, input);
+    run::RunResult result;
+    try {
+        result = run::runSource(assembled, input);
+    } catch (const std::exception&) {
+        row.status = toText(run::RunStatus::failed);
+        row.reason = world.withoutPlace(sentenceOfFailure());
+        return run::RunStatus::failed;
+    }
     row.cost.cpu_s = threadCpuSeconds() - cpu_begin;
     if (options.measure_memory) row.cost.memory_mb = memory.most();
     if (output) output->writeSummary(result.summary);
     fill(row, result, plan.study.parameters.series, counter, world.truth());
+    row.reason = world.withoutPlace(result.end_message);
     return result.status;
 }
 
@@ -124,7 +180,7 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         world.emplace(plan, planned, stopped);
     } catch (const World::Stopped&) {
         return {};
-    } catch (const std::exception& error) {
+    } catch (const ConfigError& error) {
         for (Row& row : rows) row.status = toText(run::RunStatus::failed), row.reason = sentenceOf(error);
         return rows;
     }
@@ -137,19 +193,14 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         const auto begin = std::chrono::steady_clock::now();
         Row& row = rows[i];
         row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
-        try {
-            const run::RunStatus status =
-                runInto(row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run),
-                        registry, options);
-            if (status == run::RunStatus::stopped) {
-                rows.resize(i);
-                return rows;
-            }
-        } catch (const std::exception& error) {
-            row.status = toText(run::RunStatus::failed);
-            row.reason = sentenceOf(error);
-            row.cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const run::RunStatus status = runInto(
+            row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);
+        if (status == run::RunStatus::stopped) {
+            rows.resize(i);
+            return rows;
         }
+        if (!std::isfinite(row.cost.wall_s))
+            row.cost.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
     return rows;
 }

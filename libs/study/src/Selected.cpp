@@ -64,10 +64,10 @@ std::vector<std::string> variedAddresses(const std::vector<GridPoint>& grid) {
 }
 
 std::vector<Column> identityColumns(const Findings& findings, const Selection& selection) {
-    const auto& [study, analysis, rows] = findings;
+    const StudyFile& study = findings.study;
     std::vector<Column> columns;
-    const auto add = [&, &analysis = analysis](const std::string& name) {
-        columns.push_back({analysis.label(name), {name}, false});
+    const auto add = [&](const std::string& name) {
+        columns.push_back({findings.analysis.label(name), {name}, false});
     };
     if (selection.sources.size() > 1) add("source");
     for (const std::string& address : variedAddresses(study.scenario_grid)) add(address);
@@ -77,7 +77,8 @@ std::vector<Column> identityColumns(const Findings& findings, const Selection& s
 }
 
 std::vector<Field> identityFields(const Findings& findings, const Selection& selection, const Cell& cell) {
-    const auto& [study, analysis, rows] = findings;
+    const StudyFile& study = findings.study;
+    const Analysis& analysis = findings.analysis;
     std::vector<Field> fields;
     if (selection.sources.size() > 1) fields.push_back(plain(analysis.label(cell.source), cell.source));
     for (const std::string& address : variedAddresses(study.scenario_grid)) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "slamot/core/data/Angle.h"
@@ -12,8 +13,6 @@
 namespace slamot::study {
 namespace {
 
-const std::vector<std::string> fixed_names = {"robot_nees",   "robot_error", "heading_error",
-                                              "target_error", "target_nees", "landmark_count"};
 const std::string mode_prefix = "p_";
 
 bool isMode(const std::string& name) {
@@ -54,92 +53,144 @@ const TrackEstimate* trackOf(SourceId target, const std::vector<TrackEstimate>& 
     return best;
 }
 
-Series robotSeries(const std::string& name, const eval::RunRecord& record, const Truth& truth, Stamp start) {
-    Series series;
-    Appender out(series, start);
-    const eval::PairedTrajectory paired = eval::pairWithTruth(record.trajectory, truth);
-    if (name == "robot_nees")
-        for (const eval::NeesStep& step : eval::robotNees(paired.pairs)) out.add(step.stamp, step.squared);
-    else
-        for (const eval::PosePair& pair : paired.pairs) {
-            const Pose2& mean = pair.estimate.mean;
-            if (name == "robot_error")
-                out.add(pair.stamp, std::hypot(mean.x - pair.truth.x, mean.y - pair.truth.y));
-            else
-                out.add(pair.stamp, angleDifference(mean.theta, pair.truth.theta));
-        }
-    return series;
+/// What series are made from.
+struct SeriesInput {
+    const eval::RunRecord& record;
+    const std::map<Stamp, std::int64_t>& landmark_counts;
+    const Truth* truth;
+    std::vector<eval::PosePair> pairs;  ///< of trajectory and truth
+    SourceId target;                    ///< of lowest id; 0 where truth has none
+};
+
+void robotNees(const SeriesInput& run, Appender& out) {
+    for (const eval::NeesStep& step : eval::robotNees(run.pairs)) out.add(step.stamp, step.squared);
 }
 
-Series targetSeries(const std::string& name, const eval::RunRecord& record, const Truth& truth, Stamp start) {
-    Series series;
-    Appender out(series, start);
-    const SourceId target = truth.targets.begin()->first;
-    for (const auto& [stamp, tracks] : record.tracks) {
-        const TrackEstimate* track = trackOf(target, tracks);
-        const auto true_target = truth.targetAt(target, stamp);
-        if (!track || !true_target) continue;
-        const Vector2 error = track->mean.head<2>() - true_target->position;
-        if (name == "target_error")
-            out.add(stamp, error.norm());
-        else
-            out.add(stamp, eval::nees(error, track->covariance.topLeftCorner<2, 2>()));
+void robotError(const SeriesInput& run, Appender& out) {
+    for (const eval::PosePair& pair : run.pairs)
+        out.add(pair.stamp,
+                std::hypot(pair.estimate.mean.x - pair.truth.x, pair.estimate.mean.y - pair.truth.y));
+}
+
+void headingError(const SeriesInput& run, Appender& out) {
+    for (const eval::PosePair& pair : run.pairs)
+        out.add(pair.stamp, angleDifference(pair.estimate.mean.theta, pair.truth.theta));
+}
+
+/// Hands (stamp, track, position's error) of the target to `add` wherever it has both.
+template <class Add>
+void forTarget(const SeriesInput& run, Add add) {
+    for (const auto& [stamp, tracks] : run.record.tracks) {
+        const TrackEstimate* track = trackOf(run.target, tracks);
+        const auto true_target = run.truth->targetAt(run.target, stamp);
+        if (track && true_target) add(stamp, *track, track->mean.head<2>() - true_target->position);
     }
-    return series;
 }
 
-Series modeSeries(std::size_t mode, const eval::RunRecord& record, const Truth* truth, Stamp start) {
-    Series series;
-    Appender out(series, start);
-    const SourceId target = truth && !truth->targets.empty() ? truth->targets.begin()->first : SourceId{0};
-    for (const auto& [stamp, tracks] : record.tracks) {
-        const TrackEstimate* track = trackOf(target, tracks);
+void targetError(const SeriesInput& run, Appender& out) {
+    forTarget(run,
+              [&](Stamp stamp, const TrackEstimate&, const Vector2& error) { out.add(stamp, error.norm()); });
+}
+
+void targetNees(const SeriesInput& run, Appender& out) {
+    forTarget(run, [&](Stamp stamp, const TrackEstimate& track, const Vector2& error) {
+        out.add(stamp, eval::nees(error, track.covariance.topLeftCorner<2, 2>()));
+    });
+}
+
+void landmarkCount(const SeriesInput& run, Appender& out) {
+    for (const eval::RobotRow& row : run.record.trajectory)
+        if (const auto found = run.landmark_counts.find(row.stamp); found != run.landmark_counts.end())
+            out.add(row.stamp, static_cast<double>(found->second));
+}
+
+void modeProbability(std::size_t mode, const SeriesInput& run, Appender& out) {
+    for (const auto& [stamp, tracks] : run.record.tracks) {
+        const TrackEstimate* track = trackOf(run.target, tracks);
         if (track && mode < track->mode_probabilities.size()) out.add(stamp, track->mode_probabilities[mode]);
     }
-    return series;
 }
 
-Series countSeries(const eval::RunRecord& record, const std::map<Stamp, std::int64_t>& counts, Stamp start) {
-    Series series;
-    Appender out(series, start);
-    for (const eval::RobotRow& row : record.trajectory)
-        if (const auto found = counts.find(row.stamp); found != counts.end())
-            out.add(row.stamp, static_cast<double>(found->second));
-    return series;
+enum class Needs { nothing, truth, true_target };
+
+struct SeriesKind {
+    const char* name;
+    Needs needs;
+    bool is_nees;  ///< has dimensions
+    void (*fill)(const SeriesInput&, Appender&);
+};
+
+/// All but the probabilities of modes, whose names are the estimator's.
+constexpr std::array<SeriesKind, 6> kinds = {{
+    {"robot_nees", Needs::truth, true, robotNees},
+    {"robot_error", Needs::truth, false, robotError},
+    {"heading_error", Needs::truth, false, headingError},
+    {"target_error", Needs::true_target, false, targetError},
+    {"target_nees", Needs::true_target, true, targetNees},
+    {"landmark_count", Needs::nothing, false, landmarkCount},
+}};
+
+/// Null for one that is not in the table.
+const SeriesKind* kindOf(const std::string& name) {
+    const auto found =
+        std::find_if(kinds.begin(), kinds.end(), [&](const SeriesKind& kind) { return kind.name == name; });
+    return found == kinds.end() ? nullptr : &*found;
+}
+
+bool has(const SeriesInput& run, Needs needs) {
+    switch (needs) {
+        case Needs::nothing:
+            return true;
+        case Needs::truth:
+            return run.truth != nullptr;
+        case Needs::true_target:
+            return run.truth && !run.truth->targets.empty();
+    }
+    return false;
 }
 
 }  // namespace
 
 void requireKnownSeries(const std::vector<std::string>& names, const std::string& origin) {
+    std::vector<std::string> known;
+    for (const SeriesKind& kind : kinds) known.push_back(kind.name);
     for (const std::string& name : names) {
-        if (isMode(name) || std::find(fixed_names.begin(), fixed_names.end(), name) != fixed_names.end())
-            continue;
-        const auto near = nearestWord(name, fixed_names);
+        if (isMode(name) || kindOf(name)) continue;
+        const auto near = nearestWord(name, known);
         throw ConfigError(fmt::format("{}: no series '{}'{}, expected {} or p_<mode>", origin, name,
                                       near ? " (did you mean '" + *near + "'?)" : "",
-                                      fmt::join(fixed_names, ", ")));
+                                      fmt::join(known, ", ")));
     }
+}
+
+bool isNeesSeries(const std::string& name) {
+    const SeriesKind* kind = kindOf(name);
+    return kind && kind->is_nees;
 }
 
 std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
                                        const std::map<Stamp, std::int64_t>& landmark_counts,
                                        const Truth* truth) {
     std::map<std::string, Series> all;
-    if (record.trajectory.empty()) return all;
+    if (names.empty() || record.trajectory.empty()) return all;
+    SeriesInput run{record, landmark_counts, truth, {}, SourceId{0}};
+    if (truth) run.pairs = eval::pairWithTruth(record.trajectory, *truth).pairs;
+    if (has(run, Needs::true_target)) run.target = truth->targets.begin()->first;
+
     const Stamp start = record.trajectory.front().stamp;
     for (const std::string& name : names) {
-        if (isMode(name)) {
+        Series series;
+        Appender out(series, start);
+        if (const SeriesKind* kind = kindOf(name)) {
+            if (!has(run, kind->needs)) continue;
+            kind->fill(run, out);
+        } else {
             const auto& modes = record.mode_names;
             const auto mode = std::find(modes.begin(), modes.end(), name.substr(mode_prefix.size()));
-            if (mode != modes.end())
-                all[name] = modeSeries(static_cast<std::size_t>(mode - modes.begin()), record, truth, start);
-        } else if (name == "landmark_count") {
-            all[name] = countSeries(record, landmark_counts, start);
-        } else if (truth && name.rfind("target_", 0) == 0) {
-            if (!truth->targets.empty()) all[name] = targetSeries(name, record, *truth, start);
-        } else if (truth) {
-            all[name] = robotSeries(name, record, *truth, start);
+            if (!isMode(name) || mode == modes.end()) continue;
+            modeProbability(static_cast<std::size_t>(mode - modes.begin()), run, out);
         }
+        all[name] = std::move(series);
     }
     return all;
 }

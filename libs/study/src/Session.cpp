@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 
 namespace slamot::study {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t reasons_shown = 3;
+
+}  // namespace
 
 Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
     PlanRequest plan;
@@ -20,44 +23,50 @@ Plan planOf(const SessionRequest& request, const PluginRegistry& registry) {
     return layOut(loadStudy(request.study_file), plan, registry);
 }
 
-}  // namespace
-
 std::string workFolderOf(const std::string& store_file) {
     return (fs::path(store_file).parent_path() / "imported_logs").string();
 }
 
 Session::Session(const SessionRequest& request, const PluginRegistry& registry)
     : request_(request), plan_(planOf(request, registry)), store_(request.store_file, plan_.study) {
-    store_.done(plan_, request.any_build);
-    if (!request.retry_failed) return;
-    std::set<std::string> failed;
-    for (const Row& row : rows())
-        if (row.status == "failed") failed.insert(row.key);
-    store_.erase(failed);
+    if (!request.any_build) store_.requireBuild(plan_);
 }
 
 std::vector<Unit> Session::missing(const Shard& shard) const {
-    return unitsOf(plan_, store_.done(plan_, true), shard);
+    return unitsOf(plan_, store_.done(plan_, request_.retry_failed), shard);
+}
+
+std::vector<std::string> Session::merge(const std::vector<std::string>& files) {
+    std::vector<std::string> not_there;
+    for (const std::string& file : files) {
+        if (fs::exists(file))
+            store_.merge(file, plan_, request_.any_build);
+        else
+            not_there.push_back(file + ": is not there, expected a file of rows to merge");
+    }
+    return not_there;
 }
 
 std::string Session::stateInWords() const {
-    std::map<std::string, std::size_t> reasons;
+    // One reason, whatever numbers it comes with: the first stands for all.
+    std::map<std::string, std::pair<std::string, std::size_t>> reasons;
     std::size_t there = 0, failed = 0;
     for (const Row& row : rows()) {
         ++there;
         if (row.status != "failed") continue;
         ++failed;
-        ++reasons[row.variant + " on " + row.source + ": " + row.reason];
+        const std::string reason = row.variant + " on " + row.source + ": " + row.reason;
+        ++reasons.try_emplace(std::regex_replace(reason, std::regex("[0-9]+"), "#"), reason, 0).first->second.second;
     }
     std::string text = fmt::format("{} of {} runs are there", there, plan_.runCount());
     if (failed > 0) text += fmt::format(", of which {} failed", failed);
     std::size_t shown = 0;
-    for (const auto& [reason, count] : reasons) {
+    for (const auto& [pattern, reason_and_count] : reasons) {
         if (shown++ == reasons_shown) {
             text += fmt::format("\n  and {} further reasons", reasons.size() - reasons_shown);
             break;
         }
-        text += fmt::format("\n  {} x {}", count, reason);
+        text += fmt::format("\n  {} x {}", reason_and_count.second, reason_and_count.first);
     }
     return text;
 }

@@ -21,8 +21,9 @@ void Database::execute(const std::string& sql) {
 }
 
 void Database::fail() const {
-    throw LogError(
-        fmt::format("{}: {}, expected a file of rows of a study", file_, sqlite3_errmsg(handle_.get())));
+    const bool other_form = sqlite3_errcode(handle_.get()) == SQLITE_NOTADB;
+    throw LogError(fmt::format("{}: {}{}", file_, sqlite3_errmsg(handle_.get()),
+                               other_form ? ", expected a file of rows of a study" : ""));
 }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(database) {
@@ -69,6 +70,27 @@ std::int64_t Statement::integer(int column) const {
 
 void Statement::check(int code) {
     if (code != SQLITE_OK) database_.fail();
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+    database.execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+    if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+    database_.execute("COMMIT");
+    open_ = false;
+}
+
+Attached::Attached(Database& database, const std::string& file) : database_(database) {
+    Statement(database, "ATTACH ? AS other").bind(1, file).step();
+}
+
+Attached::~Attached() {
+    sqlite3_exec(database_.handle(), "DETACH other", nullptr, nullptr, nullptr);
 }
 
 }  // namespace slamot::study

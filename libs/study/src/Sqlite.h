@@ -48,4 +48,30 @@ class Database {
     std::unique_ptr<sqlite3, Close> handle_;
 };
 
+/// What is done until commit() is done as a whole or not at all.
+class Transaction {
+  public:
+    explicit Transaction(Database& database);
+    ~Transaction();
+    Transaction(const Transaction&) = delete;
+    Transaction& operator=(const Transaction&) = delete;
+    void commit();
+
+  private:
+    Database& database_;
+    bool open_ = true;
+};
+
+/// Another file under the name `other`. Statements and transactions on it must end before.
+class Attached {
+  public:
+    Attached(Database& database, const std::string& file);
+    ~Attached();
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+
+  private:
+    Database& database_;
+};
+
 }  // namespace slamot::study

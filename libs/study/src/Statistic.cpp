@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "slamot/study/Analysis.h"
+#include "StatisticFields.h"
 
 namespace slamot::study {
 namespace {
@@ -53,9 +53,7 @@ Statistic statisticOf(const std::vector<double>& values) {
 }
 
 Statistic scaled(Statistic s, double factor) {
-    for (double* value : {&s.mean, &s.half_width, &s.deviation, &s.median, &s.median_low, &s.median_high,
-                          &s.minimum, &s.maximum})
-        *value *= factor;
+    for (const StatisticField& number : statistic_fields) s.*number.field *= factor;
     return s;
 }
 

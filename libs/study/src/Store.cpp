@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <tuple>
 
+#include "FileLock.h"
 #include "RowJson.h"
 #include "Sqlite.h"
 #include "slamot/rawlog/LogError.h"
@@ -72,6 +74,26 @@ void requireStudy(Database& database, const std::string& name) {
             fmt::format("{}: has the rows of study '{}', expected those of '{}'", file, found_name, name));
 }
 
+/// Throws when rows of the plan were made by another build.
+void requireSameBuild(Database& database, const Plan& plan) {
+    std::map<std::string, std::string> builds;
+    Statement all(database, "SELECT key, build FROM rows");
+    while (all.step()) builds[all.text(0)] = all.text(1);
+    std::size_t there = 0, others = 0;
+    for (const WorldPlan& world : plan.worlds)
+        for (const RunPlan& run : world.runs) {
+            const auto found = builds.find(run.key);
+            if (found == builds.end()) continue;
+            ++there;
+            others += found->second != plan.configs[run.config].build;
+        }
+    if (others > 0)
+        throw LogError(fmt::format(
+            "{}: {} of its {} rows of this study were made by another build of the program or its "
+            "plugins, expected a new file, or --any-build to keep them",
+            database.file(), others, there));
+}
+
 }  // namespace
 
 struct Store::Impl {
@@ -79,11 +101,15 @@ struct Store::Impl {
         open();
         insert = std::make_unique<Statement>(
             database,
-            fmt::format("INSERT OR IGNORE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
+            fmt::format("INSERT OR REPLACE INTO rows ({}) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", columns));
+        select = std::make_unique<Statement>(database,
+                                             fmt::format("SELECT {} FROM rows WHERE key = ?", columns));
     }
 
     /// Makes the tables in an empty file, and never in a database of something else.
     void open() {
+        // SQLite does not wait for another program that changes the same new file to WAL.
+        const FileLock lock(std::filesystem::absolute(database.file()).parent_path().string());
         Statement any(database, "SELECT count(*) FROM sqlite_master");
         any.step();
         if (any.integer(0) == 0) {
@@ -91,47 +117,59 @@ struct Store::Impl {
             // Readers and a writer at the same time, and a row a commit without waiting for the disk: a kill
             // of the program loses nothing, only a power failure may lose the last rows.
             database.execute("PRAGMA journal_mode = WAL");
-            database.execute(fmt::format("BEGIN IMMEDIATE; {}", schema));
+            Transaction transaction(database);
+            database.execute(schema);
             Statement(database, "INSERT INTO study SELECT ?, ? WHERE NOT EXISTS (SELECT * FROM study)")
                 .bind(1, name)
                 .bind(2, std::string(format))
                 .step();
-            database.execute("COMMIT");
+            transaction.commit();
         }
         requireStudy(database, name);
         database.execute("PRAGMA synchronous = NORMAL");
     }
 
+    std::optional<Row> find(const std::string& key) {
+        std::optional<Row> row;
+        if (select->bind(1, key).step()) row = rowOf(*select);
+        select->reset();
+        return row;
+    }
+
     Database database;
     std::string name;
-    std::unique_ptr<Statement> insert;
+    std::unique_ptr<Statement> insert, select;
 };
 
 Store::Store(const std::string& file, const StudyFile& study) : impl_(std::make_unique<Impl>(file, study)) {}
 Store::~Store() = default;
 
-std::set<std::string> Store::done(const Plan& plan, bool any_build) const {
-    std::map<std::string, std::string> builds;
-    Statement all(impl_->database, "SELECT key, build FROM rows");
-    while (all.step()) builds[all.text(0)] = all.text(1);
-    std::set<std::string> keys;
-    std::size_t others = 0;
+void Store::requireBuild(const Plan& plan) const {
+    requireSameBuild(impl_->database, plan);
+}
+
+std::set<std::string> Store::done(const Plan& plan, bool but_failed) const {
+    std::set<std::string> there, keys;
+    Statement all(impl_->database, "SELECT key FROM rows WHERE NOT (? AND status = 'failed')");
+    all.bind(1, static_cast<std::int64_t>(but_failed));
+    while (all.step()) there.insert(all.text(0));
     for (const WorldPlan& world : plan.worlds)
-        for (const RunPlan& run : world.runs) {
-            const auto found = builds.find(run.key);
-            if (found == builds.end()) continue;
-            keys.insert(run.key);
-            others += found->second != plan.configs[run.config].build;
-        }
-    if (others > 0 && !any_build)
-        throw LogError(fmt::format(
-            "{}: {} of its {} rows of this study were made by another build of the program or its "
-            "plugins, expected a new file, or --any-build to keep them",
-            impl_->database.file(), others, keys.size()));
+        for (const RunPlan& run : world.runs)
+            if (there.count(run.key)) keys.insert(run.key);
     return keys;
 }
 
 void Store::add(const Row& row) {
+    Transaction transaction(impl_->database);
+    if (std::optional<Row> there = impl_->find(row.key); there && there->status != "failed") {
+        // What a row is called may have changed with the plan.
+        there->source = row.source, there->variant = row.variant, there->replicate = row.replicate;
+        there->scenario_point = row.scenario_point, there->config_point = row.config_point;
+        if (identity(*there) == identity(row)) return;
+        throw LogError(fmt::format(
+            "{}: its row {} ({} on {}, replicate {}) differs from the one computed now, expected equal rows",
+            impl_->database.file(), row.key.substr(0, 12), row.variant, row.source, row.replicate));
+    }
     Statement& s = *impl_->insert;
     s.bind(1, row.key)
         .bind(2, row.source)
@@ -146,37 +184,31 @@ void Store::add(const Row& row) {
     s.bindBlob(13, cbor(seriesJson(row.series))).bind(14, dumped(costJson(row.cost))).bind(15, row.build);
     s.step();
     s.reset();
-}
-
-void Store::erase(const std::set<std::string>& keys) {
-    Statement erase(impl_->database, "DELETE FROM rows WHERE key = ?");
-    for (const std::string& key : keys) {
-        erase.bind(1, key).step();
-        erase.reset();
-    }
+    transaction.commit();
 }
 
 std::vector<Row> Store::rows(const Plan& plan) const {
     struct Wanted {
         std::size_t source, scenario_point, variant, config_point;
         int replicate;
-        const std::string* key;
+        const WorldPlan* world;
+        const RunPlan* run;
     };
     std::vector<Wanted> wanted;
     for (const WorldPlan& world : plan.worlds)
         for (const RunPlan& run : world.runs)
             wanted.push_back({world.source, world.scenario_point, run.variant, run.config_point,
-                              world.replicate, &run.key});
+                              world.replicate, &world, &run});
     std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
         return std::tie(a.source, a.scenario_point, a.variant, a.config_point, a.replicate) <
                std::tie(b.source, b.scenario_point, b.variant, b.config_point, b.replicate);
     });
     std::vector<Row> found;
-    Statement one(impl_->database, fmt::format("SELECT {} FROM rows WHERE key = ?", columns));
-    for (const Wanted& run : wanted) {
-        one.bind(1, *run.key);
-        if (one.step()) found.push_back(rowOf(one));
-        one.reset();
+    for (const Wanted& one : wanted) {
+        std::optional<Row> row = impl_->find(one.run->key);
+        if (!row) continue;
+        setLabels(*row, plan, *one.world, *one.run);
+        found.push_back(std::move(*row));
     }
     return found;
 }
@@ -187,32 +219,36 @@ std::size_t Store::count() const {
     return static_cast<std::size_t>(count.integer(0));
 }
 
-void Store::merge(const std::vector<std::string>& files) {
+void Store::merge(const std::string& file, const Plan& plan, bool any_build) {
     Database& database = impl_->database;
-    for (const std::string& file : files) {
-        if (!std::filesystem::is_regular_file(file))
-            throw LogError(file + ": is not there, expected a file of rows to merge");
-        {
-            Database other(file);
-            requireStudy(other, impl_->name);
-        }
-        Statement(database, "ATTACH ? AS other").bind(1, file).step();
-        Statement conflict(
-            database,
-            "SELECT a.key, a.source, a.variant, a.replicate FROM main.rows a JOIN other.rows b USING (key)"
-            " WHERE NOT (a.status = b.status AND a.reason = b.reason AND a.estimate_hash = b.estimate_hash"
-            " AND a.metrics = b.metrics AND a.series = b.series)");
-        if (conflict.step())
-            throw LogError(
-                fmt::format("{}: its row {} ({} on {}, replicate {}) differs from that in {}, expected equal "
-                            "rows of equal keys",
-                            file, conflict.text(0).substr(0, 12), conflict.text(2), conflict.text(1),
-                            conflict.text(3), database.file()));
-        conflict.reset();
-        database.execute(
-            fmt::format("INSERT OR IGNORE INTO main.rows ({0}) SELECT {0} FROM other.rows", columns));
-        database.execute("DETACH other");
+    if (!std::filesystem::is_regular_file(file))
+        throw LogError(file + ": is not there, expected a file of rows to merge");
+    {
+        Database other(file);
+        requireStudy(other, impl_->name);
+        if (!any_build) requireSameBuild(other, plan);
     }
+    const Attached attached(database, file);
+    Transaction transaction(database);
+    Statement conflict(
+        database,
+        "SELECT a.key, a.source, a.variant, a.replicate FROM main.rows a JOIN other.rows b USING (key)"
+        " WHERE a.status != 'failed' AND b.status != 'failed'"
+        " AND NOT (a.status = b.status AND a.reason = b.reason AND a.estimate_hash = b.estimate_hash"
+        " AND a.metrics = b.metrics AND a.series = b.series)");
+    if (conflict.step())
+        throw LogError(
+            fmt::format("{}: its row {} ({} on {}, replicate {}) differs from that in {}, expected equal "
+                        "rows of equal keys",
+                        file, conflict.text(0).substr(0, 12), conflict.text(2), conflict.text(1),
+                        conflict.text(3), database.file()));
+    conflict.reset();
+    database.execute(
+        "DELETE FROM main.rows WHERE status = 'failed'"
+        " AND key IN (SELECT key FROM other.rows WHERE status != 'failed')");
+    database.execute(
+        fmt::format("INSERT OR IGNORE INTO main.rows ({0}) SELECT {0} FROM other.rows", columns));
+    transaction.commit();
 }
 
 }  // namespace slamot::study

@@ -221,6 +221,16 @@ std::vector<GridPoint> readGrid(const Config& text, const std::string& section) 
     return points;
 }
 
+/// A key that a section sets and the grid sets again would never have the section's value.
+void requireKeysOutsideGrid(const Config& text, const std::string& grid, const std::string& prefix) {
+    for (const std::string& name : namesAfter(text, prefix))
+        for (const auto& [key, entry] : text.section(prefix + name))
+            if (text.section(grid).count(key))
+                fail(entry.origin,
+                     fmt::format("'{}' in [{}{}] is a key of [{}] too, expected it in one of the two", key,
+                                 prefix, name, grid));
+}
+
 std::vector<Source> readSources(const Config& text) {
     std::vector<std::pair<int, Source>> by_line;
     for (const std::string& name : namesAfter(text, scenario_prefix))
@@ -270,6 +280,8 @@ StudyFile loadStudy(const std::string& path) {
     if (study.variants.empty()) fail(path, "runs nothing, expected [config.NAME]");
     study.config_grid = readGrid(text, "grid");
     study.scenario_grid = readGrid(text, "grid.scenario");
+    requireKeysOutsideGrid(text, "grid", config_prefix);
+    requireKeysOutsideGrid(text, "grid.scenario", scenario_prefix);
     const bool simulates = std::any_of(study.sources.begin(), study.sources.end(),
                                        [](const Source& s) { return s.scenario.has_value(); });
     if (text.has("grid.scenario") && !simulates)

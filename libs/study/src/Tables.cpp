@@ -8,6 +8,7 @@
 #include "CsvLine.h"
 #include "NumberText.h"
 #include "Selected.h"
+#include "StatisticFields.h"
 
 namespace slamot::study {
 namespace {
@@ -25,12 +26,10 @@ Field numberField(double value, int digits) {
     return {numberText(value, digits), {csvNumber(value)}};
 }
 
-const std::vector<std::string> statistic_parts = {"n",      "mean",       "half_width",
-                                                  "median", "median_low", "median_high"};
-
 Column statisticColumn(const std::string& heading, const std::string& name) {
-    Column column{heading, {}, true};
-    for (const std::string& part : statistic_parts) column.csv.push_back(name + "." + part);
+    Column column{heading, {name + ".n"}, true};
+    for (const StatisticField& number : statistic_fields)
+        if (number.in_tables) column.csv.push_back(name + "." + number.name);
     return column;
 }
 
@@ -38,9 +37,10 @@ Column statisticColumn(const std::string& heading, const std::string& name) {
 Field statisticField(const Statistic& s, const TableSpec& spec, int of) {
     std::string shown = statisticText(s, spec.shown, spec.digits);
     if (s.count > 0 && s.count < of) shown += fmt::format(", n = {}", s.count);
-    return {shown,
-            {std::to_string(s.count), csvNumber(s.mean), csvNumber(s.half_width), csvNumber(s.median),
-             csvNumber(s.median_low), csvNumber(s.median_high)}};
+    Field field{shown, {std::to_string(s.count)}};
+    for (const StatisticField& number : statistic_fields)
+        if (number.in_tables) field.csv.push_back(csvNumber(s.*number.field));
+    return field;
 }
 
 /// Builds one kind of table; lines start with what tells cells apart.
@@ -110,7 +110,11 @@ class Builder {
                 const double exists = measured ? 1 : Statistic::none;  // NaN times anything is NaN
                 TableLine& line = startLine(cell);
                 if (spec_.series.size() > 1) line.fields.push_back({analysis().label(series), {series}});
-                line.fields.push_back(countField(c.runs));
+                const std::size_t runs = cell.rows.size();
+                line.fields.push_back(
+                    c.runs < static_cast<int>(runs)
+                        ? Field{fmt::format("{} of {}", c.runs, runs), {std::to_string(c.runs)}}
+                        : countField(c.runs));
                 line.fields.push_back(numberField(exists * c.average, spec_.digits));
                 line.fields.push_back(numberField(exists * c.mean_dimension, spec_.digits));
                 for (const double part : {c.inside, c.above, c.below})

@@ -33,6 +33,16 @@ void World::simulate(const Plan& plan, const WorldPlan& world, const std::functi
     has_truth_ = true;
 }
 
+std::string World::withoutPlace(std::string message) const {
+    const std::string begin = name_ + ": ";
+    if (message.rfind(begin, 0) == 0) message.erase(0, begin.size());
+    if (log_file_.empty()) return message;
+    const std::string file = std::filesystem::path(log_file_).filename().string();
+    for (std::size_t at = 0; (at = message.find(log_file_, at)) != std::string::npos; at += file.size())
+        message.replace(at, log_file_.size(), file);
+    return message;
+}
+
 std::unique_ptr<LogSource> World::log(const LogParameters& parameters) const {
     if (observations_) return std::make_unique<MemoryLog>(observations_, parameters);
     return std::make_unique<RawlogReader>(log_file_, parameters);

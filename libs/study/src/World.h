@@ -22,6 +22,8 @@ class World {
     const Truth* truth() const { return has_truth_ ? &truth_ : nullptr; }
     /// For messages: without folders, so that rows do not depend on where a log lies.
     const std::string& name() const { return name_; }
+    /// A message without the log's folders or, at its begin, the world's name: rows do not depend on them.
+    std::string withoutPlace(std::string message) const;
     /// Of simulating, or of reading the truth.
     double secondsToMake() const { return seconds_to_make_; }
 

@@ -24,6 +24,9 @@ struct SummaryInput {
     nlohmann::json metrics;  ///< null without truth
 };
 
+/// Names of what `counts` of summary.json holds: numbers all.
+std::vector<std::string> summaryCountNames();
+
 nlohmann::json makeSummary(const SummaryInput& input);
 
 }  // namespace slamot::run

@@ -19,7 +19,10 @@ struct Cell {
 /// In the order in which they first occur. The cells point into `rows`.
 std::vector<Cell> cellsOf(const std::vector<Row>& rows);
 
-/// A figure of every row of the cell, in their order; NaN where the row has none.
+bool hasFailed(const Row& row);
+
+/// A figure of every row of the cell, in their order; NaN where the row has none or failed: costs and counts
+/// of the part of a run that went well are not those of a run.
 std::vector<double> figureOf(const Cell& cell, const std::string& figure);
 
 /// Of the finite values among those given. A number that cannot be had from so few of them is NaN:
@@ -29,7 +32,8 @@ struct Statistic {
     int count = 0;
     /// `half_width`: of Student's 95 % interval of the mean.
     double mean = none, half_width = none, deviation = none;
-    /// The interval is the shortest between order statistics that holds the median with at least 95 %.
+    /// The interval is the shortest symmetric one between order statistics that holds the median with at
+    /// least 95 %.
     double median = none, median_low = none, median_high = none;
     double minimum = none, maximum = none;
 };
@@ -39,7 +43,7 @@ Statistic statisticOf(const std::vector<double>& values);
 Statistic scaled(Statistic statistic, double factor);
 
 /// Differences a - b and ratios a / b of the rows of the same world that both have the figure, and in how
-/// many of them a is the smaller, and neither. Worlds where b is zero have no ratio.
+/// many of them a is the smaller, and neither. Failed rows have no figure; worlds where b is zero no ratio.
 struct Paired {
     Statistic difference, ratio;
     int smaller = 0, equal = 0;
@@ -56,20 +60,22 @@ struct Rate {
 };
 Rate rateOf(int count, int of);
 
-/// Rows that failed or whose robot.position.rmse is above `diverged_above`. A row that did not fail and has
-/// no such figure (no truth) says nothing and is not counted.
+/// Rows that failed, whose robot.position.rmse is above `diverged_above`, or whose errors from truth are not
+/// finite. A row that did not fail and has no errors (no truth) says nothing and is not counted.
 struct Divergence {
     Rate diverged;
     int failed = 0;
 };
 Divergence divergence(const Cell& cell, double diverged_above);
 
-/// From the series `robot_nees` or another one with dimensions; absent when no row has it.
+/// From the series `robot_nees` or another one with dimensions; absent when no row has it. Failed rows
+/// are left out.
 eval::Measured<eval::ConsistencyOverRuns> consistencyOf(const Cell& cell, const std::string& series);
 
 /// A variant's rank by a figure over worlds: 1 is the smallest, ties share the mean of their ranks, a failed
-/// run is last. A world counts where each variant has the figure or failed, and one at least has it. Each
-/// point of the config grid is a world of its own.
+/// run is last. Variants are ranked at each point of the grids where each has the figure or failed, and one
+/// at least has it. All points of a replicate share its world's seed, so that their ranks are not
+/// independent: their mean is the world's rank, and counts once.
 struct Ranked {
     std::string variant;
     Statistic rank;

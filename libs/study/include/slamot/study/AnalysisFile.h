@@ -52,36 +52,15 @@ struct PlotSpec {
     std::string title;
 };
 
-enum class CheckStatistic {
-    // of a figure
-    mean,
-    median,
-    minimum,
-    maximum,
-    // of a figure and a second config, by world; `smaller` is the part of worlds in which `config` has the
-    // less
-    ratio,
-    median_ratio,
-    ratio_of_means,
-    mean_difference,
-    median_difference,
-    smaller,
-    // of a series of NEES over runs
-    anees,
-    inside,
-    above,
-    below,
-    // part of the runs that diverged
-    rate
-};
+struct CheckStatistic;  // CheckStatistic.cpp lists them
 
 struct CheckSpec {
     std::string name, source, config, against, figure, series;
-    CheckStatistic statistic = CheckStatistic::mean;
+    const CheckStatistic* statistic = nullptr;  ///< never null once read
     GridPoint scenario_point, config_point;
     eval::Band interval;
     std::optional<eval::Band> short_interval;
-    double missing = 0;  ///< largest part of the runs that may be without the figure
+    double missing = 0;  ///< largest part of the runs that may be without the figure or series
     std::string about;
 };
 
@@ -103,9 +82,6 @@ struct Analysis {
 
 /// Strict: unknown keys, figures, sources, configs, addresses and kinds are a ConfigError with file and line.
 Analysis readAnalysis(const StudyFile& study);
-
-/// Reads and forgets: for before anything runs.
-void validateAnalysis(const StudyFile& study);
 
 /// Addresses of a grid, in the order of its first point.
 std::vector<std::string> addressesOf(const std::vector<GridPoint>& grid);

@@ -15,7 +15,7 @@ struct CheckResult {
     CheckState state = CheckState::not_checked;
     double value = Statistic::none;  ///< in the unit of the figure
     eval::Band interval;
-    std::string reason;  ///< why it failed without a value, or was not checked
+    std::string reason;  ///< why it failed without a value or was not checked; runs left out
     std::string about;
 };
 
@@ -26,7 +26,7 @@ struct CheckReport {
 };
 
 /// Takes the rows of the plan only: a store may hold a longer study. Fails where a row is missing or, but for
-/// the part that the check allows, without the figure. Values are in the units of [units].
+/// the part that the check allows, without the figure or series. Values are in the units of [units].
 CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vector<Row>& rows,
                       bool short_form);
 

@@ -8,7 +8,7 @@
 
 namespace slamot::study {
 
-/// Where and when a page's figures come from.
+/// Where and when a page is filled.
 struct Provenance {
     std::string date;       ///< of today, 2026-01-31
     std::string processor;  ///< of this machine
@@ -17,7 +17,9 @@ struct Provenance {
 };
 Provenance provenanceHere(const std::string& command);
 
-/// "Measured on 2026-01-31, AMD EPYC, 2 cores, slamot 0.1.0, 1200 runs (3 failed): `slamot study ...`"
+/// "Filled on 2026-01-31, AMD EPYC, 2 cores, slamot 0.1.0, from 1190 of 1200 runs (3 failed, 1 truncated; no
+/// runs of: mrclam_6): `slamot study ...`". Rows do not say when and on which processor they were measured.
+/// Without Findings::plan neither the number of planned runs nor the skipped sources are known.
 std::string stampLine(const Provenance& provenance, const Findings& findings);
 
 /// Replaces what stands between a mark of this study and the next `<!-- end -->`:

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,6 +116,7 @@ struct Plan {
     std::vector<std::string> skipped;
 
     std::size_t runCount() const;
+    std::set<std::string> keys() const;
     const Source& sourceOf(const WorldPlan& world) const { return study.sources[world.source]; }
     const Variant& variantOf(const RunPlan& run) const { return study.variants[run.variant]; }
     /// Words for messages and folders: `paper1-p2-17`, the second point of a grid of several, replicate 17.

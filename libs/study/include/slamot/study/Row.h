@@ -51,6 +51,9 @@ struct Row {
 /// A figure of a row: a metric's name, or `cost.<field>`. NaN where the row has none.
 double figureOf(const Row& row, const std::string& name);
 
+/// Names, points and replicate as the plan has them: a key outlives a grid that is put around it.
+void setLabels(Row& row, const Plan& plan, const WorldPlan& world, const RunPlan& run);
+
 /// All but cost and build: what must agree whatever the row was computed by, with every bit of its numbers.
 std::string identity(const Row& row);
 

@@ -34,8 +34,8 @@ struct UnitOptions {
     std::string keep_folder;      ///< each run's complete output folder below it; empty: no files
 };
 
-/// Simulates or reads the world once and runs what the unit has of it. A run that throws is a row with its
-/// reason. Safe to call from several threads at once. Rows come in the unit's order; fewer when stopped.
+/// Simulates or reads the world once and runs what the unit has of it. A run that fails by its
+/// method, config or log is a row with its reason; memory and files that fail are exceptions. Safe to call from several threads at once. Rows come in the unit's order; fewer when stopped.
 std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistry& registry,
                          const UnitOptions& options);
 

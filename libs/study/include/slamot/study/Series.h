@@ -25,6 +25,9 @@ namespace slamot::study {
 /// Throws ConfigError, naming the place and the nearest name, for one that is not known.
 void requireKnownSeries(const std::vector<std::string>& names, const std::string& origin);
 
+/// Whether it has dimensions, and so a chi-square band.
+bool isNeesSeries(const std::string& name);
+
 /// Number of landmarks at every stamp, which no RunRecord keeps.
 class LandmarkCounter : public run::Sink {
   public:

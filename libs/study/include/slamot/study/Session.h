@@ -18,6 +18,9 @@ struct SessionRequest {
     std::optional<int> replicates;
 };
 
+/// Reads the study and lays it out. Throws ConfigError, PluginError or LogError.
+Plan planOf(const SessionRequest& request, const PluginRegistry& registry);
+
 class Session {
   public:
     /// Throws ConfigError, PluginError or LogError.
@@ -25,8 +28,12 @@ class Session {
 
     const Plan& plan() const { return plan_; }
     Store& store() { return store_; }
-    /// What of the shard is still to be run.
+    /// What of the shard is still to be run, failed runs too where they are to be run again.
     std::vector<Unit> missing(const Shard& shard) const;
+    /// Takes the rows of other files of the study; a sentence for each that is not there. Throws LogError.
+    std::vector<std::string> merge(const std::vector<std::string>& files);
+    /// Whether all of the plan's rows are there.
+    bool isComplete() const { return store_.done(plan_).size() == plan_.keys().size(); }
     /// The plan's rows that are there.
     std::vector<Row> rows() const { return store_.rows(plan_); }
 

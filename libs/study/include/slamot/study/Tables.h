@@ -14,6 +14,7 @@ struct Findings {
     const StudyFile& study;
     const Analysis& analysis;
     const std::vector<Row>& rows;
+    const Plan* plan = nullptr;  ///< what there should be; null where that is not known
 };
 
 struct Column {

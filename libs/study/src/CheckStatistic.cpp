@@ -1,0 +1,31 @@
+#include "CheckStatistic.h"
+
+namespace slamot::study {
+
+const std::vector<CheckStatistic>& checkStatistics() {
+    using S = const Statistic&;
+    using P = const Paired&;
+    using C = const eval::ConsistencyOverRuns&;
+    static const std::vector<CheckStatistic> all = {
+        {"mean", "mean of {}", true, OfFigure([](S s) { return s.mean; })},
+        {"median", "median of {}", true, OfFigure([](S s) { return s.median; })},
+        {"minimum", "least {}", true, OfFigure([](S s) { return s.minimum; })},
+        {"maximum", "largest {}", true, OfFigure([](S s) { return s.maximum; })},
+        {"ratio", "mean ratio of {}", false, OfPairs([](P p) { return p.ratio.mean; })},
+        {"median_ratio", "median ratio of {}", false, OfPairs([](P p) { return p.ratio.median; })},
+        {"ratio_of_means", "ratio of mean {}", false, OfPairs([](P p) { return p.mean_a / p.mean_b; })},
+        {"mean_difference", "mean difference of {}", true, OfPairs([](P p) { return p.difference.mean; })},
+        {"median_difference", "median difference of {}", true,
+         OfPairs([](P p) { return p.difference.median; })},
+        {"smaller", "part of worlds with the smaller {}", false,
+         OfPairs([](P p) { return static_cast<double>(p.smaller) / p.difference.count; })},
+        {"anees", "average of {}", false, OfSeries([](C c) { return c.average; })},
+        {"inside", "steps in the band of {}", false, OfSeries([](C c) { return c.inside; })},
+        {"above", "steps above the band of {}", false, OfSeries([](C c) { return c.above; })},
+        {"below", "steps below the band of {}", false, OfSeries([](C c) { return c.below; })},
+        {"rate", "part that diverged", false,
+         OfDivergence([](const Divergence& d) { return d.diverged.rate; })}};
+    return all;
+}
+
+}  // namespace slamot::study

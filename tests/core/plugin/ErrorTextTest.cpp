@@ -1,0 +1,27 @@
+#include "slamot/core/plugin/ErrorText.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/core/exceptions.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace slamot {
+namespace {
+
+TEST(ErrorText, IsOneLineWithoutMrptsCallStack) {
+    EXPECT_EQ(sentenceOf(std::runtime_error("a\nb")), "a b");
+    std::string sentence, what;
+    try {
+        THROW_EXCEPTION("no such\nthing");
+    } catch (const std::exception& error) {
+        sentence = sentenceOf(error), what = error.what();
+    }
+    // MRPT puts the place of the throw before it, in the same line.
+    EXPECT_NE(sentence.find("no such thing"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    EXPECT_LT(sentence.size(), what.size());
+}
+
+}  // namespace
+}  // namespace slamot
