@@ -122,6 +122,8 @@ class Twins {
     void attend() {
         RangeBearingSet seen;
         seen.sensors.resize(1);
+        seen.detections.resize(1);
+        seen.detections.front().kind = ObjectKind::landmark;
         const std::vector<BlockId> measured;
         compressed.attend({Pose2::fromVector(compressed.mode(0).mean(robot_block)), seen, measured}, weights);
         for (const auto& [id, name] : names)
