@@ -141,19 +141,27 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
     commit.Phi_landmarks = P(away, beta);
     commit.kept_covariance = P(kept, away);
     commit.own_covariance = P(away, away);
+    if (modes_.size() > 1) {
+        // The new base is P_aa^+ P_ab, how b follows a: so P_aa^+, which may be large, is in no mode, where
+        // it would have to cancel. In units of landmarks over those of a, so deviations are inverted.
+        const Eigen::MatrixXd inverse = pseudoInverse(P(kept, kept));
+        commit.Phi = inverse * commit.Phi;
+        commit.kept_covariance = inverse * commit.kept_covariance;
+        commit.kept_std = commit.kept_std.unaryExpr([](double std) { return std > 0 ? 1.0 / std : 0.0; });
+    }
     map_.commit(commit);
 
     layout_ = kept_layout;
     base_.assign(1, next_id_++);
     const int q = map_.baseDimension();
     layout_.append(base_.front(), BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
-    const Eigen::MatrixXd inverse = modes_.size() > 1 ? pseudoInverse(P(kept, kept)) : Eigen::MatrixXd();
+    const Eigen::MatrixXd P_kept = P(kept, kept);
     for (std::size_t i = 0; i < modes_.size(); ++i)
-        restart(modes_[i].gaussian, kept, inverse, matched.deviation.col(static_cast<Eigen::Index>(i)));
+        restart(modes_[i].gaussian, kept, P_kept, matched.deviation.col(static_cast<Eigen::Index>(i)));
 }
 
 void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& kept,
-                                  const Eigen::MatrixXd& inverse, const Eigen::VectorXd& deviation) const {
+                                  const Eigen::MatrixXd& merged, const Eigen::VectorXd& deviation) const {
     const int n_a = static_cast<int>(kept.size()), n = layout_.dimension(), step = (n - n_a) / n_a;
     std::vector<int> proper;  // base coordinates that stand for a itself, not for its turned copy
     for (int k = 0; k < n_a; ++k) proper.push_back(n_a + step * k);
@@ -163,12 +171,11 @@ void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& k
     Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
     P.topLeftCorner(n_a, n_a) = own;
     x.head(n_a) = mode.mean()(kept);
-    const bool several = inverse.size() > 0;
+    const bool several = modes_.size() > 1;
     if (several) {
-        const Eigen::MatrixXd gain = inverse * own;
-        P(proper, Eigen::seqN(0, n_a)) = gain;
-        P(proper, proper) = gain * inverse - inverse;
-        x(proper) = inverse * deviation(kept);
+        P(proper, Eigen::seqN(0, n_a)) = own;
+        P(proper, proper) = own - merged;
+        x(proper) = deviation(kept);
     } else {
         for (int k = 0; k < n_a; ++k) P(proper[static_cast<std::size_t>(k)], k) = 1.0;
     }

@@ -71,9 +71,9 @@ class CompressedJointBank : public JointBank {
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
-    /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `deviation`
-    /// is of its mean from the merged one; no inverse of the merged P_aa: the only mode.
-    void restart(BlockGaussian& mode, const std::vector<int>& kept, const Eigen::MatrixXd& inverse,
+    /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `merged` is
+    /// P_aa of all modes, `deviation` the mode's mean less the merged one.
+    void restart(BlockGaussian& mode, const std::vector<int>& kept, const Eigen::MatrixXd& merged,
                  const Eigen::VectorXd& deviation) const;
 
     Consistency consistency_;
