@@ -142,11 +142,12 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
     commit.kept_covariance = P(kept, away);
     commit.own_covariance = P(away, away);
     if (modes_.size() > 1) {
-        // The new base is P_aa^+ P_ab, how b follows a: so P_aa^+, which may be large, is in no mode, where
-        // it would have to cancel. In units of landmarks over those of a, so deviations are inverted.
-        const Eigen::MatrixXd inverse = pseudoInverse(P(kept, kept));
-        commit.Phi = inverse * commit.Phi;
-        commit.kept_covariance = inverse * commit.kept_covariance;
+        // The new base is P_aa^+ P_ab, how b follows a, in units of b over those of a.
+        Eigen::MatrixXd rows(commit.Phi.rows(), commit.Phi.cols() + commit.kept_covariance.cols());
+        rows << commit.Phi, commit.kept_covariance;
+        rows = regression(P(kept, kept), rows);
+        commit.Phi = rows.leftCols(commit.Phi.cols());
+        commit.kept_covariance = rows.rightCols(commit.kept_covariance.cols());
         commit.kept_std = commit.kept_std.unaryExpr([](double std) { return std > 0 ? 1.0 / std : 0.0; });
     }
     map_.commit(commit);
