@@ -19,7 +19,6 @@
 namespace slamot {
 namespace {
 
-
 JointFilter filterWith(JointEngine::Kind kind, Consistency consistency) {
     JointFilterParameters parameters;
     parameters.consistency = consistency;
