@@ -314,7 +314,9 @@ TEST_P(CompressedJointBankTest, WhatIsPutAwayCanBeRemoved) {
     for (int i = 0; i < 6; ++i) pair.augment(BlockKind::landmark);
     pair.update();
     pair.commit({1, 2, 3, 4});
-    pair.attend();  // some are in the far group
+    pair.attend();
+    EXPECT_EQ(pair.compressed.map().census().near_columns, 0)
+        << "in the far group; near ones: ExactBetweenCommits";
     pair.update();
     for (const BlockId id : {2, 1, 4, 3}) {
         ASSERT_FALSE(pair.compressed.active(pair.names.at(id)));
