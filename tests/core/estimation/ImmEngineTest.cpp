@@ -192,8 +192,8 @@ TEST_P(ImmCommits, DifferLittleFromNone) {
 
 constexpr const char* two_modes = "cv:cv:0.5, ca:ca:1.5";
 constexpr const char* three_modes = "cv:cv:0.5, ca:ca:1.5, left:ct:0.5:20";
-const auto cores = testing::Values(Consistency::classic, Consistency::invariant);
-const auto modes = testing::Values(two_modes, three_modes);
+const auto both_cores = testing::Values(Consistency::classic, Consistency::invariant);
+const auto two_and_three = testing::Values(two_modes, three_modes);
 
 std::string nameOf(const testing::TestParamInfo<Case>& each) {
     const auto& [consistency, form, modes] = each.param;
@@ -202,9 +202,11 @@ std::string nameOf(const testing::TestParamInfo<Case>& each) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ImmEngines,
-                         testing::Combine(cores, testing::Values(ImmForm::exact, ImmForm::scalable), modes),
+                         testing::Combine(both_cores, testing::Values(ImmForm::exact, ImmForm::scalable),
+                                          two_and_three),
                          nameOf);
-INSTANTIATE_TEST_SUITE_P(All, ImmCommits, testing::Combine(cores, testing::Values(ImmForm::exact), modes),
+INSTANTIATE_TEST_SUITE_P(All, ImmCommits,
+                         testing::Combine(both_cores, testing::Values(ImmForm::exact), two_and_three),
                          nameOf);
 
 }  // namespace
