@@ -19,7 +19,7 @@ constexpr double regroup_after = 2.0;
 /// rounding.
 constexpr double tolerance = 1e-11;
 /// What the end of a group leaves out, in parts of a variance.
-constexpr double negligible = 1e-11;
+constexpr double negligible = 1e-13;
 constexpr std::size_t most_waiting = 3;
 
 Eigen::VectorXd inverseOrZero(const Eigen::VectorXd& std) {
