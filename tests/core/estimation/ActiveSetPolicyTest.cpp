@@ -5,6 +5,15 @@
 namespace slamot {
 namespace {
 
+RangeBearingDetection sightOf(ObjectKind kind, double range, int sensor = 0) {
+    RangeBearingDetection out;
+    out.kind = kind;
+    out.range = range;
+    out.sensor = sensor;
+    return out;
+}
+
+/// A sensor that sees a landmark.
 RangeBearingSet oneSensor(double range, double field_of_view = 2 * pi, const Pose2& pose = {}) {
     RangeBearingSet set;
     RangeBearingSensor sensor;
@@ -12,6 +21,7 @@ RangeBearingSet oneSensor(double range, double field_of_view = 2 * pi, const Pos
     sensor.field_of_view = field_of_view;
     sensor.pose = pose;
     set.sensors.push_back(sensor);
+    set.detections.push_back(sightOf(ObjectKind::landmark, 1));
     return set;
 }
 
@@ -67,15 +77,15 @@ TEST(ActiveSetPolicyTest, DueWhenAMarginIsUsedUp) {
     EXPECT_TRUE(policy.due());
 }
 
-TEST(ActiveSetPolicyTest, WithoutALimitTheLongestRangeMetCounts) {
+TEST(ActiveSetPolicyTest, WithoutALimitTheLongestRangeOfALandmarkCounts) {
     ActiveSetPolicy policy({});
     RangeBearingSet set = oneSensor(0);
-    set.detections.resize(2);
-    set.detections[0].range = 8;
-    set.detections[1].range = 5;
+    set.detections = {sightOf(ObjectKind::landmark, 8), sightOf(ObjectKind::landmark, 5),
+                      sightOf(ObjectKind::mover, 40), sightOf(ObjectKind::unknown, 50)};
     policy.look({{}, set, nothing});
     EXPECT_EQ(policy.range(), 8);
     policy.refreshed();
+    EXPECT_FALSE(policy.due());
     set.detections[1].range = 12;
     policy.look({{}, set, nothing});
     EXPECT_EQ(policy.range(), 12);
@@ -86,6 +96,37 @@ TEST(ActiveSetPolicyTest, WithoutALimitTheLongestRangeMetCounts) {
     ActiveSetPolicy fixed(parameters);
     fixed.look({{}, set, nothing});
     EXPECT_EQ(fixed.range(), 3);
+}
+
+TEST(ActiveSetPolicyTest, ASensorThatSeesMoversOnlyDoesNotCount) {
+    // A scanner that sees landmarks to 20 m, and a radar behind it that sees movers to 200 m.
+    for (const std::optional<double>& by_hand : {std::optional<double>(), std::optional<double>(20.0)}) {
+        ActiveSetParameters parameters;
+        parameters.range = by_hand;
+        parameters.activate_margin = 0.5;
+        ActiveSetPolicy policy(parameters);
+        RangeBearingSet set = oneSensor(20);
+        set.sensors.push_back({"radar", {-5, 0, 0}, 0, 200, 2 * pi});
+        set.detections = {sightOf(ObjectKind::mover, 150, 1)};
+        policy.look({{}, set, nothing});
+        EXPECT_EQ(policy.range(), 0) << "no landmark yet";
+        EXPECT_FALSE(policy.due());
+        EXPECT_FALSE(policy.toActivate({0, 0}));
+        EXPECT_FALSE(policy.toKeep({0, 0}));
+        set.detections.push_back(sightOf(ObjectKind::landmark, 15, 0));
+        policy.look({{}, set, nothing});
+        EXPECT_EQ(policy.range(), 20);
+        EXPECT_TRUE(policy.due());
+        EXPECT_TRUE(policy.toActivate({29.9, 0}));
+        EXPECT_FALSE(policy.toActivate({30.1, 0}));
+        EXPECT_FALSE(policy.toActivate({-30.1, 0})) << "within reach of the radar only";
+        EXPECT_FALSE(policy.toKeep({-30.1, 0}));
+        // It has seen a landmark after all.
+        set.detections.push_back(sightOf(ObjectKind::landmark, 15, 1));
+        policy.look({{}, set, nothing});
+        EXPECT_EQ(policy.range(), by_hand.value_or(200));
+        EXPECT_TRUE(policy.toActivate({-5 - 1.49 * policy.range(), 0}));
+    }
 }
 
 TEST(ActiveSetPolicyTest, CommitsWhenThereIsMuchToGain) {

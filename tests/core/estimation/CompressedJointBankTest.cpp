@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -122,6 +123,8 @@ class Twins {
     void attend() {
         RangeBearingSet seen;
         seen.sensors.resize(1);
+        seen.detections.resize(1);
+        seen.detections.front().kind = ObjectKind::landmark;
         const std::vector<BlockId> measured;
         compressed.attend({Pose2::fromVector(compressed.mode(0).mean(robot_block)), seen, measured}, weights);
         for (const auto& [id, name] : names)
@@ -133,6 +136,30 @@ class Twins {
         compressed.remove(names.at(id));
         active.erase(id);
         names.erase(id);
+    }
+
+    /// One step of whatever the dice say.
+    double anything() {
+        attend();
+        const double choice = random.uniform();
+        if (choice < 0.25) {
+            propagate();
+        } else if (choice < 0.6) {
+            update();
+        } else if (choice < 0.7) {
+            mix();
+        } else if (choice < 0.78) {
+            augment(random.uniform() < 0.7 ? BlockKind::landmark : BlockKind::target);
+        } else if (choice < 0.84) {
+            activate(some(0.3, false));
+        } else if (choice < 0.94) {
+            commit(some(0.4, true));
+        } else {
+            const auto ids = all();
+            const auto id = ids[static_cast<std::size_t>(random.uniform(0, static_cast<double>(ids.size())))];
+            if (id != robot_block) remove(id);
+        }
+        return choice;
     }
 
     std::vector<BlockId> inCompressed(const std::vector<BlockId>& ids) const {
@@ -245,26 +272,7 @@ TEST_P(CompressedJointBankTest, RandomSequences) {
         Twins pair = twins(sequence);
         for (int i = 0; i < 12; ++i) pair.augment(BlockKind::landmark);
         for (int step = 0; step < 80; ++step) {
-            pair.attend();
-            const double choice = pair.random.uniform();
-            if (choice < 0.25) {
-                pair.propagate();
-            } else if (choice < 0.6) {
-                pair.update();
-            } else if (choice < 0.7) {
-                pair.mix();
-            } else if (choice < 0.78) {
-                pair.augment(pair.random.uniform() < 0.7 ? BlockKind::landmark : BlockKind::target);
-            } else if (choice < 0.84) {
-                pair.activate(pair.some(0.3, false));
-            } else if (choice < 0.94) {
-                pair.commit(pair.some(0.4, true));
-            } else {
-                const auto ids = pair.all();
-                const auto id =
-                    ids[static_cast<std::size_t>(pair.random.uniform(0, static_cast<double>(ids.size())))];
-                if (id != robot_block) pair.remove(id);
-            }
+            const double choice = pair.anything();
             ASSERT_TRUE(pair.agree()) << "sequence " << sequence << " step " << step << " choice " << choice;
             for (int i = 0; i < pair.dense.modeCount(); ++i)
                 ASSERT_TRUE(isPositiveSemidefinite(
@@ -277,6 +285,76 @@ TEST_P(CompressedJointBankTest, RandomSequences) {
     }
     EXPECT_GT(most_far, 10);
     EXPECT_GT(regroupings, 5);
+}
+
+TEST_P(CompressedJointBankTest, EverythingCanComeBack) {
+    Twins pair = twins(20);
+    for (int i = 0; i < 12; ++i) pair.augment(BlockKind::landmark);
+    for (int round = 0; round < 3; ++round) {
+        pair.update();
+        pair.commit(pair.some(0.7, true));
+        pair.propagate();
+        pair.update();
+        pair.mix();
+        pair.commit(pair.some(0.5, true));  // what was away before stays so, with another base
+        EXPECT_GT(pair.compressed.map().size(), 6);
+        pair.propagate();
+        pair.activate(pair.some(1.0, false));
+        EXPECT_EQ(pair.compressed.map().size(), 0);
+        EXPECT_EQ(pair.compressed.activeDimension(), pair.dense.dimension());
+        ASSERT_TRUE(pair.agree(1e-11)) << round;
+        pair.update();
+        ASSERT_TRUE(pair.agree(1e-11)) << round;
+    }
+}
+
+TEST_P(CompressedJointBankTest, WhatIsPutAwayCanBeRemoved) {
+    // One by one, until nothing is left away; then the bank goes on.
+    Twins pair = twins(21);
+    for (int i = 0; i < 6; ++i) pair.augment(BlockKind::landmark);
+    pair.update();
+    pair.commit({1, 2, 3, 4});
+    pair.attend();
+    EXPECT_EQ(pair.compressed.map().census().near_columns, 0)
+        << "in the far group; near ones: ExactBetweenCommits";
+    pair.update();
+    for (const BlockId id : {2, 1, 4, 3}) {
+        ASSERT_FALSE(pair.compressed.active(pair.names.at(id)));
+        pair.remove(id);
+        ASSERT_TRUE(pair.agree(1e-12)) << id;
+        pair.propagate();
+        pair.update();
+        ASSERT_TRUE(pair.agree(1e-12)) << id;
+    }
+    EXPECT_EQ(pair.compressed.map().size(), 0);
+    pair.commit({5});
+    pair.update();
+    EXPECT_TRUE(pair.agree(1e-12));
+}
+
+TEST_P(CompressedJointBankTest, AClonesLifeIsItsOwn) {
+    Twins pair = twins(22);
+    for (int i = 0; i < 12; ++i) pair.augment(BlockKind::landmark);
+    for (int step = 0; step < 40; ++step) pair.anything();
+    ASSERT_GT(pair.compressed.map().size(), 0);
+    const auto clone = pair.compressed.clone();
+    const auto blocks = pair.inCompressed(pair.all());
+    const Eigen::MatrixXd before = pair.compressed.mode(0).jointCovariance(blocks);
+    EXPECT_EQ(clone->mode(0).jointCovariance(blocks), before);
+
+    auto original = std::make_unique<Twins>(pair);
+    for (int step = 0; step < 40; ++step) original->anything();
+    ASSERT_TRUE(original->agree());
+    const auto names = original->all();
+    const Eigen::MatrixXd after = original->compressed.mode(0).jointCovariance(original->inCompressed(names));
+    EXPECT_EQ(clone->mode(0).jointCovariance(blocks), before) << "the clone has not moved";
+    original.reset();
+
+    // The same dice give the same to the bit, without the original.
+    for (int step = 0; step < 40; ++step) pair.anything();
+    ASSERT_TRUE(pair.agree());
+    EXPECT_EQ(pair.all(), names);
+    EXPECT_EQ(pair.compressed.mode(0).jointCovariance(pair.inCompressed(names)), after);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CompressedJointBankTest,

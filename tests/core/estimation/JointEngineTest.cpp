@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "LoopScene.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/Definiteness.h"
 #include "slamot/core/estimation/JointFilter.h"
@@ -17,10 +18,6 @@
 
 namespace slamot {
 namespace {
-
-using test::near;
-
-constexpr double range = 12, dt = 0.5;
 
 JointFilter filterWith(JointEngine::Kind kind, Consistency consistency) {
     JointFilterParameters parameters;
@@ -32,54 +29,6 @@ JointFilter filterWith(JointEngine::Kind kind, Consistency consistency) {
     filter.start({}, {{0, 0, 0}, Matrix3::Identity() * 1e-4});
     return filter;
 }
-
-/// A rectangle of 80 m x 40 m at 1 m a step, with landmarks on both sides.
-class Loop {
-  public:
-    Loop() : random_(5, RandomPurpose::test) {
-        for (int i = 0; i < 260; ++i)
-            landmarks_.emplace_back(random_.uniform(-15, 95), random_.uniform(-15, 55));
-        pose_ = {0, 0, 0};
-    }
-
-    OdometryIncrement drive(int step) {
-        const int along = step % 240;
-        const bool corner = along == 80 || along == 120 || along == 200 || (along == 0 && step > 0);
-        const Pose2 increment{1, 0, corner ? pi / 2 : 0};
-        // Turns in place before moving on, so that the path stays on the rectangle.
-        pose_ = pose_ * Pose2{0, 0, increment.theta} * Pose2{1, 0, 0};
-        const Pose2 measured{std::cos(increment.theta) + 0.02 * random_.normal(),
-                             std::sin(increment.theta) + 0.01 * random_.normal(),
-                             increment.theta + 0.005 * random_.normal()};
-        return test::odometry(dt * step, dt * (step + 1), measured);
-    }
-
-    DetectionSet look(int step) {
-        std::vector<RangeBearingDetection> detections;
-        for (std::size_t i = 0; i < landmarks_.size(); ++i)
-            if ((landmarks_[i] - pose_.position()).norm() < range)
-                detections.push_back(
-                    test::seen(pose_, landmarks_[i], ObjectKind::landmark, static_cast<std::int64_t>(i)));
-        // A mover overtakes the robot every 30 steps; its track has ended in between.
-        if (step % 30 < 12)
-            detections.push_back(test::seen(pose_, pose_ * Vector2(-6 + step % 30, 3), ObjectKind::mover, 0));
-        if (step % 50 > 40)
-            detections.push_back(
-                test::seen(pose_, pose_ * Vector2(4, 10 - 2 * (step % 50 - 40)), ObjectKind::mover, 1));
-        for (RangeBearingDetection& d : detections) {
-            d.range += 0.1 * random_.normal();
-            d.bearing = wrapAngle(d.bearing + 0.02 * random_.normal());
-        }
-        DetectionSet set = test::detectionsAt(dt * (step + 1), detections);
-        std::get<RangeBearingSet>(set.measurements).sensors[0].max_range = range;
-        return set;
-    }
-
-  private:
-    RandomStream random_;
-    std::vector<Vector2> landmarks_;
-    Pose2 pose_;
-};
 
 /// Robot and landmarks.
 Eigen::VectorXd positions(const JointFilter& filter) {
@@ -97,7 +46,7 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     // The engines add the same numbers in another order, some 1e4 times; the map leaves
     // out what is below 1e-10 of a standard deviation. 1e-9 of the largest number of a kind is what is
     // promised.
-    Loop loop;
+    test::LoopScene loop(5, 260);
     JointFilter dense = filterWith(JointEngine::Kind::dense, GetParam()),
                 compressed = filterWith(JointEngine::Kind::compressed, GetParam());
     const auto& bank = dynamic_cast<const CompressedJointBank&>(compressed.state());

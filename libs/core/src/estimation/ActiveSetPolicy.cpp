@@ -9,12 +9,14 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
     ParameterTable table(name,
                          "What the compressed engine keeps within reach, and when it puts landmarks away.");
     table
-        .optionalReal("range", p.range, "m", Interval::positive(),
-                      "How far the sensors see; auto: their own limits, or the longest range met.")
+        .optionalReal(
+            "range", p.range, "m", Interval::positive(),
+            "How far the sensors see landmarks; auto: their own limits, or the longest range one was met "
+            "at. Sensors that see movers only do not count.")
         .real("activate_margin", p.activate_margin, "-", Interval::nonNegative(),
               "Landmarks are brought in up to (1 + this) ranges away.")
         .real("keep_margin", p.keep_margin, "-", Interval::nonNegative(),
-              "They are kept up to (1 + this) ranges away; more than activate_margin.")
+              "They are kept up to (1 + this) ranges away; at least activate_margin is taken.")
         .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, 180),
               "The same beyond the edges of a field of view below 360 deg; twice that for keeping.")
         .real("base_growth", p.base_growth, "-", Interval::atLeast(2.1),
@@ -28,28 +30,33 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
 
 void ActiveSetPolicy::look(const Attention& attention) {
     for (const RangeBearingSensor& seen : attention.seen.sensors) {
-        const auto same = [&seen](const Sensor& s) { return s.label == seen.label; };
-        auto sensor = std::find_if(sensors_.begin(), sensors_.end(), same);
-        if (sensor == sensors_.end())
-            sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}});
-        const double limit = parameters_.range.value_or(seen.max_range);
-        if (limit > 0) sensor->range = limit;
-        sensor->now = attention.robot * seen.pose;
+        Sensor& sensor = of(seen);
+        sensor.now = attention.robot * seen.pose;
     }
     for (const RangeBearingDetection& detection : attention.seen.detections) {
+        if (detection.kind != ObjectKind::landmark) continue;
         const RangeBearingSensor& seen = attention.seen.sensors[static_cast<std::size_t>(detection.sensor)];
-        if (parameters_.range || seen.max_range > 0) continue;
-        for (Sensor& sensor : sensors_) {
-            if (sensor.label != seen.label || detection.range <= sensor.range) continue;
-            sensor.range = detection.range;
-            sensor.known = false;
-        }
+        const double limit = parameters_.range.value_or(seen.max_range);
+        const double range = limit > 0 ? limit : detection.range;
+        Sensor& sensor = of(seen);
+        if (range <= sensor.range) continue;
+        sensor.range = range;
+        sensor.known = false;
+        range_ = std::max(range_, range);
     }
-    for (const Sensor& sensor : sensors_) range_ = std::max(range_, sensor.range);
+}
+
+ActiveSetPolicy::Sensor& ActiveSetPolicy::of(const RangeBearingSensor& seen) {
+    const auto same = [&seen](const Sensor& s) { return s.label == seen.label; };
+    auto sensor = std::find_if(sensors_.begin(), sensors_.end(), same);
+    if (sensor == sensors_.end())
+        sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}});
+    return *sensor;
 }
 
 bool ActiveSetPolicy::due() const {
     return std::any_of(sensors_.begin(), sensors_.end(), [this](const Sensor& s) {
+        if (s.range == 0) return false;
         if (!s.known) return true;
         // What is in view now was within reach then, as long as neither margin is used up.
         const double moved = (s.now.position() - s.at_refresh.position()).norm();
@@ -70,7 +77,7 @@ bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view
     return std::any_of(sensors_.begin(), sensors_.end(), [&](const Sensor& s) {
         const Vector2 to = landmark - s.now.position();
         const double distance = to.norm();
-        if (distance > (1 + margin) * s.range) return false;
+        if (s.range == 0 || distance > (1 + margin) * s.range) return false;
         // A sensor that moves by its margin sees what stood beside it from another side.
         if (s.field_of_view >= 2 * pi || distance <= margin * s.range) return true;
         const double aside = std::abs(angleDifference(std::atan2(to.y(), to.x()), s.now.theta));

@@ -15,16 +15,24 @@ std::vector<int> coordinates(const BlockLayout& layout, bool put_away) {
 
 }  // namespace
 
-Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P) {
+Eigen::MatrixXd regression(const Eigen::Ref<const Eigen::MatrixXd>& P_aa,
+                           const Eigen::Ref<const Eigen::MatrixXd>& P_ab) {
     // Units differ between components: the eigenvalues to be judged are those of the correlations.
-    const Eigen::VectorXd scale = P.diagonal().unaryExpr(
+    const Eigen::VectorXd scale = P_aa.diagonal().unaryExpr(
         [](double variance) { return variance > 0 ? 1.0 / std::sqrt(variance) : 0.0; });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * P * scale.asDiagonal());
-    const double floor = 1e-14 * static_cast<double>(P.rows()) * solver.eigenvalues().maxCoeff();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * P_aa *
+                                                                scale.asDiagonal());
+    const double floor = 1e-14 * static_cast<double>(P_aa.rows()) * solver.eigenvalues().maxCoeff();
     const Eigen::VectorXd inverse =
         solver.eigenvalues().unaryExpr([floor](double value) { return value > floor ? 1.0 / value : 0.0; });
-    const Eigen::MatrixXd V = scale.asDiagonal() * solver.eigenvectors();
-    return V * inverse.asDiagonal() * V.transpose();
+    // From right to left: rounding then stays in the directions of small variance, where it does no harm.
+    // P_aa^+ by itself spreads it over all, times the condition of P_aa.
+    const Eigen::MatrixXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * P_ab);
+    return scale.asDiagonal() * (solver.eigenvectors() * (inverse.asDiagonal() * along));
+}
+
+Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P) {
+    return regression(P, Eigen::MatrixXd::Identity(P.rows(), P.cols()));
 }
 
 MatchedModes matchModes(const BlockLayout& layout, const std::vector<BlockGaussian*>& modes,
@@ -60,7 +68,7 @@ void shareConditional(const BlockLayout& layout, const std::vector<BlockGaussian
     const MatchedModes matched = matchModes(layout, modes, weights, consistency);
     const Eigen::MatrixXd& P = matched.covariance;
     const std::vector<int> a = coordinates(layout, false), b = coordinates(layout, true);
-    const Eigen::MatrixXd P_aa = P(a, a), P_bb = P(b, b), A = pseudoInverse(P_aa) * P(a, b);
+    const Eigen::MatrixXd P_aa = P(a, a), P_bb = P(b, b), A = regression(P_aa, P(a, b));
     for (std::size_t i = 0; i < modes.size(); ++i) {
         BlockGaussian& mode = *modes[i];
         Eigen::MatrixXd P_i = mode.lower().selfadjointView<Eigen::Lower>();

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "slamot/core/estimation/CommonConditional.h"
+#include "slamot/core/estimation/DenseAlgebra.h"
 
 namespace slamot {
 
@@ -83,8 +84,9 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
     if (away.empty()) return;
     ++activations_;
 
-    // c = c0 + B_c^t beta + e_c. P_cr0, the covariance of e_c with what stays, becomes base rows gamma: they
-    // have no covariance but the identity with c, and none of their own.
+    // c = c0 + B_c^t beta + e_c. What the base's rows proper, U, do not say of the covariance of e_c with
+    // what stays, P_cr0 - U_c^t U_r, becomes base rows gamma, whitened. So e_c has the formal covariances U_c
+    // with the rows proper of beta and P_c|^1/2 with those of gamma.
     const std::vector<int> beta = baseCoordinates();
     const PassiveMap::Taken taken = map_.take(away);
     const int columns = static_cast<int>(taken.mean.size()), before = layout_.dimension();
@@ -97,13 +99,17 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
             for (int j = 0; j < before; ++j)
                 P_beta(static_cast<Eigen::Index>(k), j) =
                     g.lower()(std::max(beta[k], j), std::min(beta[k], j));
-        const Eigen::MatrixXd P_c = taken.base.transpose() * P_beta;  // with [a | beta]
+        Eigen::MatrixXd P_c = taken.base.transpose() * P_beta;  // with [a | beta]
+        const Eigen::MatrixXd P_cc = taken.covariance + P_c(Eigen::all, beta) * taken.base;
+        for (std::size_t k = 0; k < beta.size(); k += static_cast<std::size_t>(step))
+            P_c.col(beta[k]) += taken.base.row(static_cast<Eigen::Index>(k)).transpose();
         const Eigen::VectorXd mean = taken.mean + taken.base.transpose() * Eigen::VectorXd(g.mean()(beta));
         g.append(columns);
         g.mean().segment(c, columns) = mean;
         g.lower().block(c, 0, columns, before) = P_c;
-        for (int k = 0; k < columns; ++k) g.lower()(c + k, gamma + step * k) = 1.0;
-        g.lower().block(c, c, columns, columns) = taken.covariance + P_c(Eigen::all, beta) * taken.base;
+        for (int k = 0; k < columns; ++k)
+            g.lower().col(gamma + step * k).segment(c, columns) = taken.root.col(k);
+        g.lower().block(c, c, columns, columns) = P_cc;
     }
     for (const BlockId id : away) layout_.append(id, BlockKind::landmark, 2);
 }
@@ -133,47 +139,45 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
         for (int k = 0; k < block.size; ++k) (block.put_away ? away : kept).push_back(block.offset + k);
     }
     const std::vector<int> beta = baseCoordinates();
-    commit.Phi = P(kept, beta);
+    const SquareRoot root = squareRoot(P(kept, kept));
     commit.Psi = P(beta, beta);
     commit.eta = matched.mean(beta);
-    commit.kept_std = Eigen::VectorXd(P.diagonal()(kept)).cwiseMax(0).cwiseSqrt();
+    commit.rows = product(root.whitener, P(kept, beta));
     commit.mean = matched.mean(away);
-    commit.Phi_landmarks = P(away, beta);
-    commit.kept_covariance = P(kept, away);
-    commit.own_covariance = P(away, away);
+    commit.base = product(root.whitener, P(kept, away));
+    commit.Phi = P(away, beta);
+    commit.covariance = P(away, away);
     map_.commit(commit);
 
     layout_ = kept_layout;
     base_.assign(1, next_id_++);
     const int q = map_.baseDimension();
     layout_.append(base_.front(), BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
-    const Eigen::MatrixXd inverse = modes_.size() > 1 ? pseudoInverse(P(kept, kept)) : Eigen::MatrixXd();
     for (std::size_t i = 0; i < modes_.size(); ++i)
-        restart(modes_[i].gaussian, kept, inverse, matched.deviation.col(static_cast<Eigen::Index>(i)));
+        restart(modes_[i].gaussian, kept, root, matched.deviation.col(static_cast<Eigen::Index>(i)));
 }
 
-void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& kept,
-                                  const Eigen::MatrixXd& inverse, const Eigen::VectorXd& deviation) const {
+void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& kept, const SquareRoot& merged,
+                                  const Eigen::VectorXd& deviation) const {
     const int n_a = static_cast<int>(kept.size()), n = layout_.dimension(), step = (n - n_a) / n_a;
     std::vector<int> proper;  // base coordinates that stand for a itself, not for its turned copy
     for (int k = 0; k < n_a; ++k) proper.push_back(n_a + step * k);
 
-    const Eigen::MatrixXd own = Eigen::MatrixXd(mode.lower().selfadjointView<Eigen::Lower>())(kept, kept);
     Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-    P.topLeftCorner(n_a, n_a) = own;
     x.head(n_a) = mode.mean()(kept);
-    const bool several = inverse.size() > 0;
-    if (several) {
-        const Eigen::MatrixXd gain = inverse * own;
-        P(proper, Eigen::seqN(0, n_a)) = gain;
-        P(proper, proper) = gain * inverse - inverse;
-        x(proper) = inverse * deviation(kept);
-    } else {
-        for (int k = 0; k < n_a; ++k) P(proper[static_cast<std::size_t>(k)], k) = 1.0;
+    P.topLeftCorner(n_a, n_a) = Eigen::MatrixXd(mode.lower().selfadjointView<Eigen::Lower>())(kept, kept);
+    if (modes_.size() == 1) {
+        P(proper, Eigen::seqN(0, n_a)) = merged.root.transpose();
+        return mode.set(x, P);
     }
+    const Eigen::MatrixXd Phi_t = product(merged.whitener, P.topLeftCorner(n_a, n_a));
+    P(proper, Eigen::seqN(0, n_a)) = Phi_t;
+    P(proper, proper) = product(Phi_t, merged.whitener.transpose());
+    P.diagonal()(proper) -= merged.unknown();
+    x(proper) = merged.whitener * deviation(kept);
     mode.set(x, P);
-    if (!several || consistency_ == Consistency::classic) return;
+    if (consistency_ == Consistency::classic) return;
     // (4) Back to the mode's own mean.
     x.head(n_a) = deviation(kept);
     mode.transport(layout_, x);

@@ -18,6 +18,26 @@ Eigen::MatrixXd onPairs(const Eigen::MatrixXcd& T) {
     return out;
 }
 
+/// The complex matrix behind a product of pairs of rows.
+Eigen::MatrixXcd ofPairs(const Eigen::MatrixXd& M) {
+    Eigen::MatrixXcd out(M.rows() / 2, M.cols() / 2);
+    for (Eigen::Index j = 0; j < out.cols(); ++j)
+        for (Eigen::Index i = 0; i < out.rows(); ++i) out(i, j) = {M(2 * i, 2 * j), M(2 * i, 2 * j + 1)};
+    return out;
+}
+
+/// Rows over all far tiles, cut into tiles.
+using Rows = std::vector<Eigen::MatrixXd>;
+
+Eigen::MatrixXd gram(const Rows& a, const Rows& b) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.front().rows(), b.front().rows());
+    for (std::size_t t = 0; t < a.size(); ++t) out += product(a[t], b[t].transpose());
+    return out;
+}
+
+/// Eigenvalues above this part of the largest have eigenvectors worth their name.
+constexpr double well_known = 1e-8;
+
 /// Makes every second row exactly the turned one before it: where little is left of a direction, scaling it
 /// up brings rounding forward.
 void pairUp(Eigen::MatrixXd& V) {
@@ -66,31 +86,46 @@ double FarGroup::cost(int s, int t) const {
     return 1.0 * static_cast<double>(both ? lambda.size() : rank()) * width(s) * width(t);
 }
 
-void FarGroup::orthonormalise() {
-    // V V^t as a complex matrix, each pair of rows being y and i y: T = Lambda^-1/2 E^H. Where V has nothing
-    // left the direction is dropped; elsewhere W V is unchanged however small it is.
-    if (rank() == 0) return;
-    const Eigen::Index pairs = rank() / 2;
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rank(), rank());
-    for (const Part& p : parts)
-        if (p.far) gram += product(p.V, p.V.transpose());
-    Eigen::MatrixXcd G(pairs, pairs);
-    for (Eigen::Index j = 0; j < pairs; ++j)
-        for (Eigen::Index i = 0; i < pairs; ++i) G(i, j) = {gram(2 * i, 2 * j), gram(2 * i, 2 * j + 1)};
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(G);
-    const auto& squared = solver.eigenvalues();
-    Eigen::Index none = 0;
-    while (none < pairs && squared(none) <= 1e-30) ++none;
-    const Eigen::Index kept = pairs - none;
-    const Eigen::VectorXd root = squared.tail(kept).cwiseSqrt();
-    const Eigen::MatrixXcd E = solver.eigenvectors().rightCols(kept);
-    const Eigen::MatrixXd T = onPairs(root.cwiseInverse().asDiagonal() * E.adjoint());
-    W = W * onPairs(E * root.asDiagonal());
-    for (Part& p : parts) {
-        if (!p.far) continue;
-        p.V = product(T, p.V);
-        pairUp(p.V);
+void FarGroup::orthonormalise(double negligible) {
+    // Eigenvectors of V V^t as a complex matrix, each pair of rows being y and i y. It knows directions of
+    // which little is left to half the digits only: they are taken apart and orthonormalised among
+    // themselves.
+    Rows rest, found;
+    for (Part& p : parts)
+        if (p.far) rest.push_back(std::move(p.V));
+    for (const Eigen::MatrixXd& rows : rest) found.emplace_back(0, rows.cols());
+    if (rest.empty()) return void(W.resize(W.rows(), 0));
+    Eigen::MatrixXd W_rest = W;
+    W.resize(W.rows(), 0);
+    while (W_rest.cols() > 0) {
+        if (W.cols() > 0) {
+            const Eigen::MatrixXd along = gram(rest, found);
+            for (std::size_t t = 0; t < rest.size(); ++t) rest[t] -= product(along, found[t]);
+            W += product(W_rest, along);
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(ofPairs(gram(rest, rest)));
+        const Eigen::VectorXd& squared = solver.eigenvalues();
+        const double largest = squared(squared.size() - 1);
+        if (largest <= 0 || W_rest.norm() * std::sqrt(largest) <= negligible) break;
+        const auto few = (squared.array() <= well_known * largest).count(), many = squared.size() - few;
+        const Eigen::VectorXd length = squared.tail(many).cwiseSqrt();
+        const Eigen::MatrixXcd E = solver.eigenvectors().rightCols(many);
+        const Eigen::MatrixXd T = onPairs(length.cwiseInverse().asDiagonal() * E.adjoint()),
+                              left = onPairs(solver.eigenvectors().leftCols(few));
+        for (std::size_t t = 0; t < rest.size(); ++t) {
+            Eigen::MatrixXd unit = product(T, rest[t]);
+            pairUp(unit);
+            found[t].conservativeResize(W.cols() + unit.rows(), Eigen::NoChange);
+            found[t].bottomRows(unit.rows()) = unit;
+            rest[t] = product(left.transpose(), rest[t]);
+        }
+        W.conservativeResize(Eigen::NoChange, W.cols() + 2 * many);
+        W.rightCols(2 * many) = product(W_rest, onPairs(E * length.asDiagonal()));
+        W_rest = product(W_rest, left);
     }
+    std::size_t t = 0;
+    for (Part& p : parts)
+        if (p.far) p.V = std::move(found[t++]);
 }
 
 void FarGroup::extend(int directions) {

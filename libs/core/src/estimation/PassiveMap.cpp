@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "slamot/core/estimation/DenseAlgebra.h"
+#include "slamot/core/estimation/SquareRoot.h"
 #include "slamot/core/estimation/TurningBasis.h"
 
 namespace slamot {
@@ -90,6 +91,10 @@ Eigen::MatrixXd PassiveMap::withTurned(const Eigen::MatrixXd& rows) const {
     return out;
 }
 
+Eigen::MatrixXd PassiveMap::rowsProper(const Eigen::MatrixXd& rows) const {
+    return turning_ ? Eigen::MatrixXd(rows(Eigen::seq(0, Eigen::last, 2), Eigen::all)) : rows;
+}
+
 void PassiveMap::addBlock(int s, int row, int t, int column, const Eigen::Ref<const Eigen::MatrixXd>& P) {
     if (s > t) return addBlock(t, column, s, row, P.transpose());
     Eigen::MatrixXd& Z = pair(s, t).Z;
@@ -128,11 +133,11 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
             taken.covariance.block<2, 2>(2 * i, 2 * j) =
                 covariance(id, landmarks[static_cast<std::size_t>(j)]);
     }
-    const Eigen::VectorXd std = taken.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    addRows(addresses, std);
+    const Eigen::MatrixXd proper = rowsProper(taken.base);
+    const SquareRoot root = squareRoot(taken.covariance - proper.transpose() * proper);
+    addRows(addresses, proper, root.whitener);
+    taken.root = root.root;
     taken.new_rows = columns * (turning_ ? 2 : 1);
-    row_std_.conservativeResize(q_ + taken.new_rows);
-    for (int k = 0; k < taken.new_rows; ++k) row_std_(q_ + k) = std(turning_ ? k / 2 : k);
     q_ += taken.new_rows;
 
     std::vector<std::vector<int>> gone(tiles_.size());
@@ -184,24 +189,19 @@ void PassiveMap::commit(const Commit& commit) {
         first_column[static_cast<std::size_t>(t)] = columns;
         if (!tile(t).far) columns += tile(t).width();
     }
-    Eigen::MatrixXd near_rows(commit.Phi_landmarks.rows(), columns);
+    Eigen::MatrixXd near_rows(commit.Phi.rows(), columns);
     for (int t = 0; t < tileCount(); ++t) {
         Tile& own = tile(t);
         if (own.far || !used(t)) continue;
-        multiply(commit.Phi_landmarks, own.X,
+        multiply(commit.Phi, own.X,
                  near_rows.middleCols(first_column[static_cast<std::size_t>(t)], own.width()));
         own.mean.noalias() += own.X.transpose() * commit.eta;
-        Eigen::MatrixXd U(commit.Phi.rows(), own.width());
-        multiply(commit.Phi, own.X, U);
-        own.X = withTurned(U);
+        own.X = withTurned(product(commit.rows, own.X));
     }
-    const Eigen::MatrixXd far_rows = commit.Phi_landmarks * group_.W;
+    const Eigen::MatrixXd far_rows = product(commit.Phi, group_.W);
     if (group_.rank() > 0) group_.shift.noalias() += group_.W.transpose() * commit.eta;
-    group_.W = withTurned(commit.Phi * group_.W);
-    const int rows = turning_ ? 2 : 1;
-    q_ = rows * static_cast<int>(commit.Phi.rows());
-    row_std_.resize(q_);
-    for (int k = 0; k < q_; ++k) row_std_(k) = commit.kept_std(k / rows);
+    group_.W = withTurned(product(commit.rows, group_.W));
+    q_ = (turning_ ? 2 : 1) * static_cast<int>(commit.rows.rows());
 
     append(commit, near_rows, far_rows, first_column);
     index();
@@ -225,14 +225,14 @@ void PassiveMap::append(const Commit& commit, const Eigen::MatrixXd& near_rows,
             Eigen::MatrixXd P(2, before + after);
             if (before > 0)
                 P.leftCols(before) = rows.middleCols(first_column[static_cast<std::size_t>(s)], before);
-            P.rightCols(after) = commit.own_covariance.middleRows<2>(2 * j)(Eigen::all, others);
+            P.rightCols(after) = commit.covariance.middleRows<2>(2 * j)(Eigen::all, others);
             addBlock(s, 0, t, width, P.transpose());
             if (s == t) addBlock(t, width, t, 0, P);
         }
-        addBlock(t, width, t, width, commit.own_covariance.block<2, 2>(2 * j, 2 * j));
+        addBlock(t, width, t, width, commit.covariance.block<2, 2>(2 * j, 2 * j));
 
         own.X.conservativeResize(q_, width + 2);
-        own.X.rightCols<2>() = withTurned(commit.kept_covariance.middleCols<2>(2 * j));
+        own.X.rightCols<2>() = withTurned(commit.base.middleCols<2>(2 * j));
         own.mean.conservativeResize(width + 2);
         own.mean.tail<2>() = commit.mean.segment<2>(2 * j);
         FarGroup::Part& part = group_.part(t);

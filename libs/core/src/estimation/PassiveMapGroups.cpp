@@ -15,16 +15,13 @@ constexpr double tile_radius =
 /// of one within reach.
 constexpr double far_distance = 5.0;
 constexpr double regroup_after = 2.0;
-/// Directions that carry less than this part of a standard deviation, summed over all far landmarks, are
-/// rounding.
+/// Directions that carry less than this part of a standard deviation, in the root mean square over all
+/// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
+/// much.
 constexpr double tolerance = 1e-11;
 /// What the end of a group leaves out, in parts of a variance.
-constexpr double negligible = 1e-11;
+constexpr double negligible = 1e-13;
 constexpr std::size_t most_waiting = 3;
-
-Eigen::VectorXd inverseOrZero(const Eigen::VectorXd& std) {
-    return std.unaryExpr([](double v) { return v > 0 ? 1.0 / v : 0.0; });
-}
 
 }  // namespace
 
@@ -37,6 +34,10 @@ double PassiveMap::landmarkStd() const {
     for (int t = 0; t < tileCount(); ++t)
         if (used(t)) variance = std::max(variance, pair(t, t).Z.diagonal().maxCoeff());
     return std::sqrt(variance);
+}
+
+double PassiveMap::negligibleLength() const {
+    return tolerance * landmarkStd() * std::sqrt(2.0 * size());
 }
 
 int PassiveMap::tileFor(const Vector2& position) {
@@ -106,7 +107,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
         if (!was_far && own.far) joining += own.width();
         if (!was_far && own.far) next.part(t).V.resize(next.rank(), 0);
     }
-    next.orthonormalise();
+    next.orthonormalise(negligibleLength());
 
     // [W X] of those that stay and those that join = W' K, in few rows of K; V' = K [V 0; 0 I].
     Eigen::MatrixXd M(q_, next.rank() + joining);
@@ -117,8 +118,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
         M.middleCols(joining, tile(t).width()) = tile(t).X;
         joining += tile(t).width();
     }
-    const Eigen::MatrixXd K = turningBasis(inverseOrZero(row_std_).asDiagonal() * M,
-                                           tolerance * landmarkStd(), static_cast<int>(M.cols()));
+    const Eigen::MatrixXd K = turningBasis(M, negligibleLength(), static_cast<int>(M.cols()));
     joining = next.rank();
     for (int t = 0; t < tileCount(); ++t) {
         if (!used(t) || !tile(t).far) continue;
@@ -177,7 +177,8 @@ void PassiveMap::work(double multiplications) {
     }
 }
 
-void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::VectorXd& std) {
+void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
+                         const Eigen::MatrixXd& whitener) {
     const int count = 2 * static_cast<int>(taken.size());
     // For each group what stands left of V in the rows of the landmarks taken.
     std::vector<const FarGroup*> groups;
@@ -231,7 +232,8 @@ void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::VectorX
             columns += tile(t).width();
             continue;
         }
-        const Eigen::MatrixXd rows = withTurned(rowsIn(t));
+        const Eigen::MatrixXd rows =
+            withTurned(whitener * (rowsIn(t) - known.transpose() * rowsProper(tile(t).X)));
         tile(t).X.conservativeResize(q_ + rows.rows(), Eigen::NoChange);
         tile(t).X.bottomRows(rows.rows()) = rows;
     }
@@ -251,8 +253,9 @@ void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::VectorX
         left_over.middleCols(columns, part.cols()) = part;
         columns += static_cast<int>(part.cols());
     }
-    const Eigen::MatrixXd more =
-        turningBasis(inverseOrZero(std).asDiagonal() * left_over, tolerance * landmarkStd(), 2 * count + 2);
+    left_over = whitener * left_over;
+    along = whitener * (along - known.transpose() * rowsProper(group_.W));
+    const Eigen::MatrixXd more = turningBasis(left_over, negligibleLength(), 2 * count + 2);
     const int added = static_cast<int>(more.rows());
     Eigen::MatrixXd rows(count, rank + added);
     rows << along, left_over * more.transpose();

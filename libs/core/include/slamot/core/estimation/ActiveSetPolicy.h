@@ -1,5 +1,6 @@
 #pragma once
 // Which landmarks the compressed engine keeps active: those the sensors can reach, with a margin.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,10 +11,11 @@
 namespace slamot {
 
 struct ActiveSetParameters {
-    /// [m]; not given: the sensors' own limits, or the longest range met where a sensor has none.
+    /// [m] at which landmarks are seen; not given: the sensors' own limits, or the longest range a landmark
+    /// was met at where a sensor has none.
     std::optional<double> range;
     double activate_margin = 0.4;  ///< landmarks up to (1 + this) ranges away are activated
-    double keep_margin = 0.5;      ///< active ones are kept up to (1 + this) ranges away
+    double keep_margin = 0.5;      ///< active ones are kept up to (1 + this) ranges away, or activate_margin
     double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
     double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
     double retirable_part = 0.25;  ///< commit when this part of the active landmarks is out of reach
@@ -28,9 +30,10 @@ class ActiveSetPolicy {
     explicit ActiveSetPolicy(const ActiveSetParameters& parameters) : parameters_(parameters) {}
 
     const ActiveSetParameters& parameters() const { return parameters_; }
-    /// Takes note of where the sensors are now.
+    /// Takes note of where the sensors are now, and of how far they see landmarks. A sensor counts from its
+    /// first landmark on: one that sees movers only, perhaps from afar, says nothing of the map.
     void look(const Attention& attention);
-    /// The longest range of a sensor [m].
+    /// The longest range of a sensor that counts [m]; 0 before the first landmark.
     double range() const { return range_; }
 
     /// Whether sensors have moved so far that landmarks may have come within reach since `refreshed`.
@@ -40,16 +43,20 @@ class ActiveSetPolicy {
     bool toActivate(const Vector2& landmark) const {
         return within(landmark, parameters_.activate_margin, 1);
     }
-    bool toKeep(const Vector2& landmark) const { return within(landmark, parameters_.keep_margin, 2); }
+    bool toKeep(const Vector2& landmark) const {
+        return within(landmark, std::max(parameters_.keep_margin, parameters_.activate_margin), 2);
+    }
     bool worthCommit(int active_dimension, int active_landmarks, int retirable, int base_dimension) const;
 
   private:
     struct Sensor {
         std::string label;
-        double range, field_of_view;
+        double range;  ///< [m] at which it sees landmarks; 0 as long as it has seen none
+        double field_of_view;
         Pose2 now, at_refresh;  ///< in the world
         bool known = false;     ///< whether at_refresh holds, and for this range
     };
+    Sensor& of(const RangeBearingSensor& seen);
     bool within(const Vector2& landmark, double margin, double view_margins) const;
 
     ActiveSetParameters parameters_;

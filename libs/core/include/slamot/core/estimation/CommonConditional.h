@@ -10,6 +10,10 @@ namespace slamot {
 /// Pseudo-inverse of a positive semi-definite matrix; exactly known components count as known.
 Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P);
 
+/// P_aa^+ P_ab, how b follows a, for a positive semi-definite P_aa.
+Eigen::MatrixXd regression(const Eigen::Ref<const Eigen::MatrixXd>& P_aa,
+                           const Eigen::Ref<const Eigen::MatrixXd>& P_ab);
+
 /// Several modes seen as one.
 struct MatchedModes {
     Eigen::VectorXd mean;

@@ -16,6 +16,7 @@
 #include "slamot/core/estimation/BlockGaussian.h"
 #include "slamot/core/estimation/JointBank.h"
 #include "slamot/core/estimation/PassiveMap.h"
+#include "slamot/core/estimation/SquareRoot.h"
 
 namespace slamot {
 
@@ -71,9 +72,9 @@ class CompressedJointBank : public JointBank {
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
-    /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `deviation`
-    /// is of its mean from the merged one; no inverse of the merged P_aa: the only mode.
-    void restart(BlockGaussian& mode, const std::vector<int>& kept, const Eigen::MatrixXd& inverse,
+    /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `merged` is
+    /// of the modes' common P_aa, `deviation` of the mode's mean from the common one.
+    void restart(BlockGaussian& mode, const std::vector<int>& kept, const SquareRoot& merged,
                  const Eigen::VectorXd& deviation) const;
 
     Consistency consistency_;

@@ -44,8 +44,8 @@ struct FarGroup {
     /// The multiplications of that.
     double cost(int s, int t) const;
 
-    /// Makes V's rows orthonormal again after tiles have left.
-    void orthonormalise();
+    /// Makes V's rows orthonormal again after tiles have left. What is below `negligible` in all of W V goes.
+    void orthonormalise(double negligible);
     /// More directions: rows of V for every far tile, nothing yet along them.
     void extend(int directions);
     void dropColumns(int tile, const std::vector<int>& kept);

@@ -8,8 +8,7 @@
 // FarGroup. A commit, P_bb0 += B^t Psi B, goes into the blocks of near tiles at once and waits in the group
 // for the others. When the robot has moved on, the tiles are grouped anew, and what waits in the old group is
 // added to the blocks in slices by `step`; who asks for a covariance before gets it with what is waiting. The
-// group leaves out what is below rounding: directions along which less than `tolerance` of a standard
-// deviation is known.
+// group leaves out directions that say next to nothing (negligibleLength).
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -56,10 +55,12 @@ class PassiveMap {
         Eigen::VectorXd mean;        ///< b0
         Eigen::MatrixXd base;        ///< B_c, of the base before
         Eigen::MatrixXd covariance;  ///< P_cc0
-        int new_rows = 0;            ///< by which the base has grown, at its end
+        Eigen::MatrixXd root;  ///< (P_cc0 - U_c^t U_c)^1/2: their formal covariance with the new rows proper
+        int new_rows = 0;      ///< by which the base has grown, at its end
     };
-    /// Their covariances P_cr0 with the landmarks that stay become rows at the end of the base, in their
-    /// order; where rows come in pairs, each is followed by its turned one.
+    /// What the rows proper, U, of the base do not say of their covariances P_cr0 with the landmarks that
+    /// stay, P_cr0 - U_c^t U_r, becomes rows at the end of the base, whitened; where rows come in pairs, each
+    /// is followed by its turned one.
     Taken take(const std::vector<BlockId>& landmarks);
 
     /// Forgets a landmark.
@@ -67,17 +68,16 @@ class PassiveMap {
 
     /// A new base, and landmarks that are put away.
     struct Commit {
-        Eigen::MatrixXd Phi;       ///< P of the kept active coordinates with beta
-        Eigen::MatrixXd Psi;       ///< P of beta
-        Eigen::VectorXd eta;       ///< mean of beta
-        Eigen::VectorXd kept_std;  ///< standard deviations of the kept coordinates; 0 for known ones
+        Eigen::MatrixXd Psi;   ///< P of beta
+        Eigen::VectorXd eta;   ///< mean of beta
+        Eigen::MatrixXd rows;  ///< the new base's rows proper, made of those before: rows B
         std::vector<BlockId> landmarks;
-        Eigen::VectorXd mean;             ///< of the landmarks put away
-        Eigen::MatrixXd Phi_landmarks;    ///< their P with beta
-        Eigen::MatrixXd kept_covariance;  ///< P of the kept active coordinates with them
-        Eigen::MatrixXd own_covariance;   ///< P of them
+        Eigen::VectorXd mean;        ///< of the landmarks put away
+        Eigen::MatrixXd base;        ///< their columns of the new base's rows proper
+        Eigen::MatrixXd Phi;         ///< their P with beta
+        Eigen::MatrixXd covariance;  ///< P of them
     };
-    /// b0 += B^t eta, P_bb0 += B^t Psi B, then B has the covariances of the kept coordinates as its rows.
+    /// b0 += B^t eta, P_bb0 += B^t Psi B, then B <- rows B.
     void commit(const Commit& commit);
 
     /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
@@ -126,12 +126,16 @@ class PassiveMap {
     const Address& find(BlockId landmark) const;
     void index();
     Eigen::MatrixXd withTurned(const Eigen::MatrixXd& rows) const;
+    Eigen::MatrixXd rowsProper(const Eigen::MatrixXd& rows) const;
 
     /// Adds P to the block of coordinates of s from `row` on and of t from `column` on.
     void addBlock(int s, int row, int t, int column, const Eigen::Ref<const Eigen::MatrixXd>& P);
     /// Longest standard deviation of a landmark, roughly: what tolerances refer to.
     double landmarkStd() const;
-    void addRows(const std::vector<Address>& taken, const Eigen::VectorXd& std);
+    /// Shorter rows of B, over all landmarks, say nothing.
+    double negligibleLength() const;
+    void addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
+                 const Eigen::MatrixXd& whitener);
     void drop(int t, const std::vector<int>& gone);
     int tileFor(const Vector2& position);
     /// What a commit adds to P_bb0.
@@ -144,7 +148,6 @@ class PassiveMap {
 
     bool turning_;
     int q_ = 0;
-    Eigen::VectorXd row_std_;  ///< standard deviation of the coordinate behind each base row
     std::vector<Tile> tiles_;
     std::vector<std::vector<Pair>> pairs_;  ///< [t][s], s <= t
     std::vector<Address> addresses_;        ///< by landmark
