@@ -22,7 +22,7 @@ OneRun again(const Plan& plan, const WorldPlan& planned, const RunPlan& run) {
     config.set("run", "seed", std::to_string(run.estimator_seed));
     const run::AssembledRun assembled = run::assembleRun(config, PluginRegistry::discover());
     const auto log = world.log(assembled.config.log);
-    LandmarkHistory landmarks({"landmark_error_by_age"});
+    LandmarkHistory landmarks({"landmark_error_by_age"});  // the series that wants sights
     JointAtEnd at_end;
     run::RunInput input;
     input.source = log.get();

@@ -59,7 +59,7 @@ void DecoupledImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObj
 void DecoupledImm::updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
                                 Innovation& innovation) {
     const RangeBearingDetection& detection = seen.detections[sight.detection];
-    TargetBank& tracker = trackerOf(sight.block);
+    TargetBank& tracker = targets_[indexOf(sight.block)].second;
     // Without correlation the robot is at its estimate whatever the mover's mode, and S = H_T P_T H_T^t +
     // (R + H_R P_R H_R^t): the robot's covariance is noise.
     const RobotGivenTarget robot(*this, sight.block);
@@ -90,18 +90,13 @@ BlockId DecoupledImm::addTarget(const RangeBearingDetection& detection, const Po
 }
 
 void DecoupledImm::removeTarget(BlockId target) {
-    targets_.erase(std::find_if(targets_.begin(), targets_.end(),
-                                [&](const auto& entry) { return entry.first == target; }));
+    targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(indexOf(target)));
 }
 
-TargetBank& DecoupledImm::trackerOf(BlockId target) {
-    return std::find_if(targets_.begin(), targets_.end(),
-                        [&](const auto& entry) { return entry.first == target; })
-        ->second;
-}
-
-const TargetBank& DecoupledImm::trackerOf(BlockId target) const {
-    return const_cast<DecoupledImm*>(this)->trackerOf(target);
+std::size_t DecoupledImm::indexOf(BlockId target) const {
+    std::size_t t = 0;
+    while (targets_.at(t).first != target) ++t;
+    return t;
 }
 
 // --- estimates

@@ -32,8 +32,8 @@ class DecoupledImm : public ModalState {
     void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
                            std::vector<Innovation>& innovations);
     void updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
-    TargetBank& trackerOf(BlockId target);
-    const TargetBank& trackerOf(BlockId target) const;
+    std::size_t indexOf(BlockId target) const;
+    const TargetBank& trackerOf(BlockId target) const { return targets_[indexOf(target)].second; }
 
     std::unique_ptr<JointBank> joint_;  ///< robot and landmarks
     std::vector<std::pair<BlockId, TargetBank>> targets_;
