@@ -119,23 +119,33 @@ class UnsureRobot : public testing::Test {
     RobotMotionParameters motion_;
 };
 
-TEST_F(UnsureRobot, TheMoverIsTrackedByATextbookImmWithTheRobotsCovarianceAsNoise) {
+class UnsureRobotWithEitherCore : public UnsureRobot, public testing::WithParamInterface<Consistency> {};
+INSTANTIATE_TEST_SUITE_P(Cores, UnsureRobotWithEitherCore,
+                         testing::Values(Consistency::classic, Consistency::invariant));
+
+TEST_P(UnsureRobotWithEitherCore, TheMoverIsTrackedByATextbookImmWithTheRobotsCovarianceAsNoise) {
+    const bool second_order = GetParam() == Consistency::invariant;
+    parameters_.consistency = GetParam();
     JointFilter filter(parameters_, motion_);
     filter.start({}, {{0, 0, 0}, P_RR_});
     const Matrix2 R = Vector2(0.01, 0.0004).asDiagonal();
 
-    // First sight at (10, 0): p = (r cos b, r sin b), with the heading turning it by (0, 10) per rad.
+    // First sight at (10, 0): p = (r cos b, r sin b), with the heading turning it by (0, r) per rad. To
+    // second order the bearing's variance of 0.0004 shortens the mean range and spreads it.
     filter.update(test::detectionsAt(0, {test::seen({}, Vector2(10, 0), ObjectKind::mover, 0)}));
+    const double r = second_order ? 10 * (1 - 0.0004 / 2) : 10;
+    Matrix2 R0 = R;
+    if (second_order) R0(0, 0) += 0.5 * std::pow(10 * 0.0004, 2);
     Eigen::Matrix<double, 2, 3> G;
-    G << 1, 0, 0, 0, 1, 10;
+    G << 1, 0, 0, 0, 1, r;
     Matrix2 G_z;
-    G_z << 1, 0, 0, 10;
+    G_z << 1, 0, 0, r;
     Matrix6 P0 = Matrix6::Zero();
-    P0.topLeftCorner<2, 2>() = G * P_RR_ * G.transpose() + G_z * R * G_z.transpose();
+    P0.topLeftCorner<2, 2>() = G * P_RR_ * G.transpose() + G_z * R0 * G_z.transpose();
     P0.diagonal().tail<4>() << 4, 4, 1, 1;
     Vector6 x[2];
     Matrix6 P[2] = {P0, P0};
-    x[0] = x[1] = (Vector6() << 10, 0, 0, 0, 0, 0).finished();
+    x[0] = x[1] = (Vector6() << r, 0, 0, 0, 0, 0).finished();
     Vector2 mu(0.5, 0.5);
 
     const double dt = 0.2;
@@ -177,9 +187,16 @@ TEST_F(UnsureRobot, TheMoverIsTrackedByATextbookImmWithTheRobotsCovarianceAsNois
             H.leftCols<2>() << dx / d, dy / d, -dy / d / d, dx / d / d;
             Eigen::Matrix<double, 2, 3> H_R;
             H_R << -dx / d, -dy / d, 0, dy / d / d, -dx / d / d, -1;
-            const Matrix2 noise = R + H_R * P_RR_ * H_R.transpose();
+            Matrix2 noise = R + H_R * P_RR_ * H_R.transpose();
+            Vector2 nu(place.norm() - d, std::atan2(place.y(), place.x()) - std::atan2(dy, dx));
+            if (second_order) {  // of the uncertainty of robot and mover across the line of sight
+                const Vector2 across(-dy / d, dx / d);
+                const double lateral =
+                    across.dot((P[j].topLeftCorner<2, 2>() + P_RR_.topLeftCorner<2, 2>()) * across);
+                nu(0) -= lateral / (2 * d);
+                noise(0, 0) += 0.5 * std::pow(lateral / d, 2);
+            }
             const Matrix2 S = H * P[j] * H.transpose() + noise;
-            const Vector2 nu(place.norm() - d, std::atan2(place.y(), place.x()) - std::atan2(dy, dx));
             const Eigen::Matrix<double, 6, 2> K = P[j] * H.transpose() * S.inverse();
             x[j] += K * nu;
             P[j] = (Matrix6::Identity() - K * H) * P[j];
