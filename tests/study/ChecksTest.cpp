@@ -83,6 +83,29 @@ TEST(Checks, StatisticsOfNees) {
     EXPECT_EQ(absent.reason, "3 of 3 runs of 'invariant' are without the series");
 }
 
+TEST(Checks, MeansOverAWindowOfTime) {
+    auto rows = rowsOf("paper1", "invariant", {1, 1, 1, 1});
+    const double nan = std::nan("");
+    rows[0].series["robot_error"] = {{0, 1, 2, 3}, {9, 1, 2, 9}, {}};
+    rows[1].series["robot_error"] = {{0, 1, 2, 3}, {9, 4, nan, 9}, {}};
+    rows[2].series["robot_error"] = {{0, 1, 1.5, 2, 3}, {9, 10, 20, 30, 9}, {}};
+    rows[3].series["robot_error"] = {{0, 5}, {9, 9}, {}};  // nothing in the window
+    const std::string window = "series = robot_error\nwindow = 1, 2\ninterval = 0, 10\nstatistic = ";
+    const CheckResult mean = resultOf(window + "window_mean\n", rows, 4);
+    EXPECT_EQ(mean.state, CheckState::passed) << mean.reason;
+    EXPECT_DOUBLE_EQ(mean.value, (1.5 + 4 + 20) / 3);
+    EXPECT_EQ(mean.what, "mean over time of robot_error from 1 to 2 s, paper1, invariant");
+    EXPECT_DOUBLE_EQ(resultOf(window + "window_median\n", rows, 4).value, 4);
+    const CheckResult outside =
+        resultOf("series = robot_error\nwindow = 6, 7\ninterval = 0, 10\nstatistic = window_mean\n", rows, 4);
+    EXPECT_EQ(outside.state, CheckState::failed);
+    EXPECT_EQ(outside.reason, "no run has the series in the window");
+    EXPECT_THROW(
+        readAnalysis(studyOf(checkText("series = robot_error\ninterval = 0, 10\nstatistic = window_mean\n"))),
+        ConfigError)
+        << "without a window";
+}
+
 TEST(Checks, FailedRunsCountForSeriesToo) {
     std::vector<Row> rows = rowsOf("paper1", "invariant", {1, 1, 1, 1});
     for (Row& row : rows) row.series["robot_nees"] = {{0, 1}, {3, 3}, {3, 3}};
@@ -114,6 +137,7 @@ TEST(Checks, EveryStatisticIsReadByItsNameAndSaidInWords) {
         if (statistic.ofFigure()) text += "figure = robot.position.rmse\n";
         if (statistic.ofPairs()) text += "against = classic\n";
         if (statistic.ofSeries()) text += "series = robot_nees\n";
+        if (statistic.ofWindow()) text += "window = 0, 1\n";
         const CheckSpec spec = readAnalysis(studyOf(checkText(text))).checks.at(0);
         EXPECT_EQ(spec.statistic, &statistic) << statistic.name;
         words.insert(statistic.words);

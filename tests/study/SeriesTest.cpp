@@ -1,6 +1,8 @@
 // Series of a run of three steps, by hand.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "slamot/core/config/Config.h"
 #include "slamot/core/data/Angle.h"
 #include "slamot/study/Series.h"
@@ -32,7 +34,7 @@ class SeriesTest : public testing::Test {
   protected:
     eval::RunRecord record;
     Truth truth;
-    std::map<Stamp, std::int64_t> counts = {{at(0), 0}, {at(1), 2}, {at(2), 5}};
+    LandmarkHistory landmarks{{"landmark_error_by_age"}};
 
     SeriesTest() {
         for (int k = 0; k < 3; ++k) {
@@ -48,9 +50,32 @@ class SeriesTest : public testing::Test {
             truth.targets[SourceId{9}].push_back(target);
         }
         record.mode_names = {"cv", "ca"};
+        truth.landmarks[SourceId{7}] = {5, 5};
+        truth.landmarks[SourceId{8}] = {-5, 5};
+        // Landmark 7 is seen three times with errors 3, 2, 1 m, 8 twice with 4 and 0 m, 6 has no truth.
+        see(0, 0, {sight(7, 0, {8, 5}), sight(6, 0, {0, 0})});
+        see(1, 2, {sight(7, 0, {5, 7}), sight(8, 1, {-5, 1})});
+        see(2, 5, {sight(7, 0, {4, 5}), sight(8, 1, {-5, 5})});
+    }
+    static LandmarkEstimate sight(std::int64_t source, double first_seen, const Vector2& mean) {
+        LandmarkEstimate landmark;
+        landmark.source = SourceId{source};
+        landmark.first_seen = at(first_seen);
+        landmark.mean = mean;
+        return landmark;
+    }
+    static run::Step step(double seconds, int count, const std::vector<LandmarkEstimate>& touched) {
+        run::Step step;
+        step.estimate.stamp = at(seconds);
+        step.estimate.landmark_count = count;
+        step.touched = touched;
+        return step;
+    }
+    void see(double seconds, int count, const std::vector<LandmarkEstimate>& touched) {
+        landmarks.step(step(seconds, count, touched));
     }
     std::map<std::string, Series> series(const std::vector<std::string>& names) const {
-        return seriesOf(names, record, counts, &truth);
+        return seriesOf(names, record, landmarks, &truth);
     }
 };
 
@@ -66,6 +91,20 @@ TEST_F(SeriesTest, OfTheRobot) {
     EXPECT_EQ(all.at("robot_nees").dimension, (std::vector<double>{3, 3, 3}));
     EXPECT_EQ(all.at("landmark_count").value, (std::vector<double>{0, 2, 5}));
     EXPECT_TRUE(all.at("landmark_count").dimension.empty());
+}
+
+TEST_F(SeriesTest, OfTheLandmarksByAge) {
+    const Series one = series({"landmark_error_by_age"}).at("landmark_error_by_age");
+    EXPECT_EQ(one.seconds, (std::vector<double>{0, 1, 2}));
+    EXPECT_THAT(one.value, ElementsAre(DoubleEq(std::sqrt((9.0 + 16) / 2)),
+                                       DoubleEq(std::sqrt((4.0 + 0) / 2)), DoubleEq(1)));
+}
+
+TEST_F(SeriesTest, SightsAreKeptOnlyWhereASeriesWantsThem) {
+    LandmarkHistory other({"robot_error"});
+    other.step(step(0, 3, {sight(7, 0, {8, 5})}));
+    EXPECT_TRUE(other.sights().empty());
+    EXPECT_EQ(other.counts().at(at(0)), 3);
 }
 
 TEST_F(SeriesTest, TheTargetIsTheOneOfLowestId) {
@@ -87,7 +126,8 @@ TEST_F(SeriesTest, WithoutSourcesTheLikeliestTrackIsTheTargets) {
 }
 
 TEST_F(SeriesTest, WithoutTruthOnlyWhatNeedsNone) {
-    const auto all = seriesOf({"robot_error", "target_error", "landmark_count"}, record, counts, nullptr);
+    const auto all = seriesOf({"robot_error", "target_error", "landmark_count", "landmark_error_by_age"},
+                              record, landmarks, nullptr);
     EXPECT_EQ(all.size(), 1u);
     EXPECT_EQ(all.count("landmark_count"), 1u);
 }
@@ -95,8 +135,8 @@ TEST_F(SeriesTest, WithoutTruthOnlyWhatNeedsNone) {
 TEST_F(SeriesTest, OnlyNeesHasDimensions) {
     record.tracks[at(1)] = {track(4, {10, 1}, 4, 0.9, {0.5, 0.5})};
     const auto all = series({"robot_nees", "robot_error", "heading_error", "target_error", "target_nees",
-                             "landmark_count", "p_cv"});
-    EXPECT_EQ(all.size(), 7u);
+                             "landmark_count", "landmark_error_by_age", "p_cv"});
+    EXPECT_EQ(all.size(), 8u);
     for (const auto& [name, one] : all) {
         EXPECT_FALSE(one.value.empty()) << name;
         EXPECT_EQ(one.dimension.size(), isNeesSeries(name) ? one.value.size() : 0u) << name;

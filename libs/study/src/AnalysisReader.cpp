@@ -20,7 +20,15 @@ const std::vector<std::pair<std::string, PlotKind>> plot_kinds = {
     {"over_parameter", PlotKind::over_parameter},
     {"against", PlotKind::against},
     {"over_time", PlotKind::over_time},
-    {"bands", PlotKind::bands}};
+    {"bands", PlotKind::bands},
+    {"one_run", PlotKind::one_run}};
+const std::vector<std::pair<std::string, OneRunShow>> show_names = {
+    {"map", OneRunShow::map},
+    {"robot", OneRunShow::robot},
+    {"target", OneRunShow::target},
+    {"landmark_errors", OneRunShow::landmark_errors},
+    {"correlation", OneRunShow::correlation},
+    {"correlation_head", OneRunShow::correlation_head}};
 const std::vector<std::pair<std::string, Shown>> shown_names = {
     {"mean", Shown::mean}, {"median", Shown::median}, {"both", Shown::both}};
 const std::string figure_list = "names of figures separated by commas";
@@ -80,6 +88,12 @@ Parameter logarithmicAxes(PlotSpec& spec) {
 ParameterTable describe(PlotSpec& spec) {
     ParameterTable table("figure." + spec.name, "A figure.");
     table.choice("kind", spec.kind, plot_kinds, "What the figure shows.");
+    if (spec.kind == PlotKind::one_run)
+        return table.text("title", spec.title, "Stands above the figure.")
+            .text("source", spec.source, "Of which source.")
+            .text("config", spec.config, "Of which config.")
+            .integer("replicate", spec.replicate, Interval::between(1, 1000000), "Of which world.")
+            .choice("show", spec.show, show_names, "What of the run.");
     addSelection(table, spec.selection);
     table.text("title", spec.title, "Stands above the figure.");
     table.custom(logarithmicAxes(spec));
@@ -171,6 +185,13 @@ PlotSpec readPlot(const StudyFile& study, const std::string& section) {
     spec.name = nameOf(study.text, section, "figure.");
     spec.kind = requiredChoice(study.text, section, "kind", plot_kinds);
     load(describe(spec), study.text);
+    if (spec.kind == PlotKind::one_run) {
+        requireSource(study, requiredEntry(study.text, section, "source", "the name of a source"), section,
+                      spec.source);
+        requireConfig(study, requiredEntry(study.text, section, "config", "the name of a config"), section,
+                      spec.config);
+        return spec;
+    }
     completeSelection(study, section, spec.selection);
     if (spec.kind == PlotKind::over_time || spec.kind == PlotKind::bands) {
         const auto require = spec.kind == PlotKind::bands ? requireNees : requireSeries;

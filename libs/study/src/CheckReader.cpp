@@ -66,7 +66,7 @@ GridPoint readWhere(const StudyFile& study, const std::string& section) {
     return wanted;
 }
 
-ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string& where) {
+ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string& where, eval::Band& window) {
     ParameterTable table("check." + spec.name, "A figure of the study that must lie in an interval.");
     table.text("source", spec.source, "Of which source.")
         .text("config", spec.config, "Of which config.")
@@ -75,7 +75,9 @@ ParameterTable describe(CheckSpec& spec, eval::Band& short_interval, std::string
     if (spec.statistic->ofPairs())
         table.text("against", spec.against, "The config compared with, world by world.");
     if (spec.statistic->ofSeries()) {
-        table.text("series", spec.series, "A series of NEES.");
+        table.text("series", spec.series, spec.statistic->ofNees() ? "A series of NEES." : "A series.");
+        if (spec.statistic->ofWindow())
+            addBounds(table, "window", window, "Time of the series [s], ends included.");
     } else if (spec.statistic->ofFigure()) {
         table.text("figure", spec.figure, "A metric or cost of a run.");
     }
@@ -95,9 +97,13 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
     CheckSpec spec;
     spec.name = nameOf(config, section, "check.");
     spec.statistic = requiredChoice(config, section, "statistic", statisticNames());
-    eval::Band short_interval;
+    eval::Band short_interval, window;
     std::string where;
-    load(describe(spec, short_interval, where), config);
+    load(describe(spec, short_interval, where, window), config);
+    if (spec.statistic->ofWindow()) {
+        requiredEntry(config, section, "window", "'low, high'");
+        spec.window = window;
+    }
     if (config.section(section).count("short_interval") > 0) spec.short_interval = short_interval;
     requiredEntry(config, section, "interval", "'low, high'");
 
@@ -112,8 +118,10 @@ CheckSpec readCheck(const StudyFile& study, const std::string& section) {
     };
     requireRun("config", spec.config);
     if (spec.statistic->ofPairs()) requireRun("against", spec.against);
-    if (spec.statistic->ofSeries())
+    if (spec.statistic->ofNees())
         requireNees(study, section, "series", {spec.series});
+    else if (spec.statistic->ofWindow())
+        requireSeries(study, section, "series", {spec.series});
     else if (spec.statistic->ofFigure())
         requireFigures(study, section, "figure", {spec.figure});
 

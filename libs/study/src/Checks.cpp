@@ -111,6 +111,10 @@ class Evaluation {
         if (!measured) return measured.whyAbsent();
         return value(*measured);
     }
+    Outcome operator()(OfWindow value) const {
+        return inUnit(value.of(statisticOf(windowMeans(cell_, check_.series, *check_.window))),
+                      "no run has the series in the window");
+    }
     Outcome operator()(OfDivergence value) const {
         return inUnit(value(divergence(cell_, diverged_above_)), "no run says where the robot was in truth");
     }
@@ -129,6 +133,7 @@ class Evaluation {
 std::string describe(const CheckSpec& check, const Analysis& analysis) {
     const std::string& figure = check.figure.empty() ? check.series : check.figure;
     std::string text = fmt::format(fmt::runtime(check.statistic->words), analysis.label(figure));
+    if (check.window) text += fmt::format(" from {} to {} s", check.window->low, check.window->high);
     text += fmt::format(", {}, {}", analysis.label(check.source), analysis.label(check.config));
     if (!check.against.empty()) text += " to " + analysis.label(check.against);
     for (const auto* point : {&check.scenario_point, &check.config_point})
@@ -177,7 +182,8 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
         }
         if (!judgement.possible) continue;
 
-        const Evaluation evaluation(check, planned.cell, against.cell, analysis.factor(check.figure),
+        const Evaluation evaluation(check, planned.cell, against.cell,
+                                    analysis.factor(check.figure.empty() ? check.series : check.figure),
                                     plan.study.parameters.diverged_above);
         const Outcome outcome = std::visit(evaluation, check.statistic->value);
         if (const double* value = std::get_if<double>(&outcome)) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "OneRunFigure.h"
 #include "OverTime.h"
 #include "Selected.h"
 #include "slamot/report/Figure.h"
@@ -129,6 +130,8 @@ class Drawing {
                 return overTime(subject);
             case PlotKind::bands:
                 return bands(subject);
+            case PlotKind::one_run:
+                break;  // makeFigure's
         }
         return {};
     }
@@ -314,9 +317,31 @@ class Drawing {
     std::vector<std::string> labels_;  ///< of all lines, in the order of their colours
 };
 
+/// Whether the run made again is that of the rows, where they have it.
+bool isOfRows(const OneRun& run, const std::vector<Row>& rows) {
+    return std::none_of(rows.begin(), rows.end(), [&](const Row& row) {
+        return row.key == run.key && !hasFailed(row) && row.estimate_hash != run.estimate_hash;
+    });
+}
+
+report::Figure noRunFigure(const PlotSpec& spec) {
+    report::Figure figure;
+    figure.title = spec.title;
+    figure.panels.emplace_back().note = "no such run";
+    return figure;
+}
+
 }  // namespace
 
 report::Figure makeFigure(const PlotSpec& spec, const Findings& findings) {
+    if (spec.kind == PlotKind::one_run) {
+        const auto run = findings.plan ? runAgain(*findings.plan, {spec.source, spec.config, spec.replicate})
+                                       : std::nullopt;
+        if (!run) return noRunFigure(spec);
+        report::Figure figure = oneRunFigure(spec, *run);
+        if (!isOfRows(*run, findings.rows)) figure.subtitle = "not as in the rows: another build";
+        return figure;
+    }
     return Drawing(spec, findings).figure();
 }
 

@@ -55,12 +55,12 @@ Row rowOf(const Plan& plan, const WorldPlan& world, const RunPlan& run) {
 }
 
 void fill(Row& row, const run::RunResult& result, const std::vector<std::string>& series,
-          const LandmarkCounter& counter, const Truth* truth) {
+          const LandmarkHistory& landmarks, const Truth* truth) {
     row.status = toText(result.status);
     row.estimate_hash = result.estimate_hash;
     flatten(result.summary["metrics"], "", row.metrics);
     flatten(result.summary["counts"], "counts", row.metrics);
-    row.series = seriesOf(series, result.record, counter.counts(), truth);
+    row.series = seriesOf(series, result.record, landmarks, truth);
     const nlohmann::json& time = result.summary["time"];
     const auto number = [](const nlohmann::json& json) {
         return json.is_number() ? json.get<double>() : Cost::none;
@@ -135,14 +135,14 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
     if (options.measure_memory) memory.start();
     const run::AssembledRun assembled = run::assembleRun(config, registry);
     const auto log = world.log(assembled.config.log);
-    LandmarkCounter counter;
+    LandmarkHistory landmarks(plan.study.parameters.series);
     run::RunInput input;
     input.source = log.get();
     input.log_name = world.name();
     input.truth = world.truth();
     input.truth_name = world.truth() ? world.name() : "";
     input.stop = options.stop;
-    input.sinks.push_back(&counter);
+    input.sinks.push_back(&landmarks);
     std::optional<run::OutputFolder> output;
     std::vector<std::unique_ptr<CheckedSink>> checked;
     if (!folder.empty()) {
@@ -162,7 +162,7 @@ run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const Wor
     row.cost.cpu_s = run::threadCpuSeconds() - cpu_begin;
     if (options.measure_memory) row.cost.memory_mb = memory.most();
     if (output) output->writeSummary(result.summary);
-    fill(row, result, plan.study.parameters.series, counter, world.truth());
+    fill(row, result, plan.study.parameters.series, landmarks, world.truth());
     row.reason = world.withoutPlace(result.end_message);
     return result.status;
 }

@@ -14,6 +14,7 @@ namespace slamot::study {
 namespace {
 
 const std::string mode_prefix = "p_";
+const std::string error_by_age = "landmark_error_by_age";
 
 bool isMode(const std::string& name) {
     return name.rfind(mode_prefix, 0) == 0 && name.size() > mode_prefix.size();
@@ -23,8 +24,9 @@ bool isMode(const std::string& name) {
 class Appender {
   public:
     Appender(Series& series, Stamp start) : series_(series), start_(start) {}
-    void add(Stamp stamp, double value) {
-        series_.seconds.push_back(secondsBetween(start_, stamp));
+    void add(Stamp stamp, double value) { addAfter(secondsBetween(start_, stamp), value); }
+    void addAfter(double seconds, double value) {
+        series_.seconds.push_back(seconds);
         series_.value.push_back(value);
     }
     void add(Stamp stamp, const eval::SquaredError& squared) {
@@ -56,7 +58,7 @@ const TrackEstimate* trackOf(SourceId target, const std::vector<TrackEstimate>& 
 /// What series are made from.
 struct SeriesInput {
     const eval::RunRecord& record;
-    const std::map<Stamp, std::int64_t>& landmark_counts;
+    const LandmarkHistory& landmarks;
     const Truth* truth;
     std::vector<eval::PosePair> pairs;  ///< of trajectory and truth
     SourceId target;                    ///< of lowest id; 0 where truth has none
@@ -100,8 +102,20 @@ void targetNees(const SeriesInput& run, Appender& out) {
 
 void landmarkCount(const SeriesInput& run, Appender& out) {
     for (const eval::RobotRow& row : run.record.trajectory)
-        if (const auto found = run.landmark_counts.find(row.stamp); found != run.landmark_counts.end())
+        if (const auto found = run.landmarks.counts().find(row.stamp); found != run.landmarks.counts().end())
             out.add(row.stamp, static_cast<double>(found->second));
+}
+
+void landmarkErrorByAge(const SeriesInput& run, Appender& out) {
+    std::map<double, std::pair<double, int>> squares;  // sum and count, by age
+    for (const auto& [stamp, landmark] : run.landmarks.sights()) {
+        const auto place = run.truth->landmarks.find(landmark.source);
+        if (place == run.truth->landmarks.end()) continue;
+        auto& [sum, count] = squares[secondsBetween(landmark.first_seen, stamp)];
+        sum += (landmark.mean - place->second).squaredNorm();
+        ++count;
+    }
+    for (const auto& [age, square] : squares) out.addAfter(age, std::sqrt(square.first / square.second));
 }
 
 void modeProbability(std::size_t mode, const SeriesInput& run, Appender& out) {
@@ -121,13 +135,14 @@ struct SeriesKind {
 };
 
 /// All but the probabilities of modes, whose names are the estimator's.
-constexpr std::array<SeriesKind, 6> kinds = {{
+const std::array<SeriesKind, 7> kinds = {{
     {"robot_nees", Needs::truth, true, robotNees},
     {"robot_error", Needs::truth, false, robotError},
     {"heading_error", Needs::truth, false, headingError},
     {"target_error", Needs::true_target, false, targetError},
     {"target_nees", Needs::true_target, true, targetNees},
     {"landmark_count", Needs::nothing, false, landmarkCount},
+    {error_by_age.c_str(), Needs::truth, false, landmarkErrorByAge},
 }};
 
 /// Null for one that is not in the table.
@@ -168,12 +183,21 @@ bool isNeesSeries(const std::string& name) {
     return kind && kind->is_nees;
 }
 
+LandmarkHistory::LandmarkHistory(const std::vector<std::string>& series)
+    : keeps_sights_(std::find(series.begin(), series.end(), error_by_age) != series.end()) {}
+
+void LandmarkHistory::step(const run::Step& step) {
+    counts_[step.estimate.stamp] = step.estimate.landmark_count;
+    if (keeps_sights_)
+        for (const LandmarkEstimate& landmark : step.touched)
+            sights_.push_back({step.estimate.stamp, landmark});
+}
+
 std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
-                                       const std::map<Stamp, std::int64_t>& landmark_counts,
-                                       const Truth* truth) {
+                                       const LandmarkHistory& landmarks, const Truth* truth) {
     std::map<std::string, Series> all;
     if (names.empty() || record.trajectory.empty()) return all;
-    SeriesInput run{record, landmark_counts, truth, {}, SourceId{0}};
+    SeriesInput run{record, landmarks, truth, {}, SourceId{0}};
     if (truth) run.pairs = eval::pairWithTruth(record.trajectory, *truth).pairs;
     if (has(run, Needs::true_target)) run.target = truth->targets.begin()->first;
 

@@ -70,6 +70,13 @@ conformance::Options scalable() {
     return options;
 }
 
+conformance::Options decoupled() {
+    conformance::Options options;
+    options.plugin = "imm_slamot";
+    options.config = "[imm_slamot]\nform = decoupled\n";
+    return options;
+}
+
 conformance::Options compressed() {
     conformance::Options options;
     options.plugin = "imm_slamot";
@@ -92,5 +99,6 @@ conformance::Options threeModes() {
 SLAMOT_CONFORMANCE_SUITE(imm_slamot, slamot::conformance::Options{});
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_classic, slamot::classic());
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_scalable, slamot::scalable());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_decoupled, slamot::decoupled());
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_compressed, slamot::compressed());
 SLAMOT_CONFORMANCE_SUITE(imm_slamot_three_modes, slamot::threeModes());

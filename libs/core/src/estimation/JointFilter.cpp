@@ -1,6 +1,7 @@
 #include "slamot/core/estimation/JointFilter.h"
 
 #include "slamot/core/estimation/BankedImm.h"
+#include "slamot/core/estimation/DecoupledImm.h"
 
 namespace slamot {
 namespace {
@@ -27,8 +28,11 @@ JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMot
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    belief_ = std::make_unique<JointImm>(settings_,
-                                         makeJointBank(parameters_.engine, pose, parameters_.consistency, 1));
+    auto bank = makeJointBank(parameters_.engine, pose, parameters_.consistency, 1);
+    if (parameters_.imm.form == ImmForm::decoupled)
+        belief_ = std::make_unique<DecoupledImm>(settings_, std::move(bank));
+    else
+        belief_ = std::make_unique<JointImm>(settings_, std::move(bank));
     if (parameters_.imm.form == ImmForm::scalable) becomeScalable();
     objects_ = {};
 }

@@ -112,12 +112,18 @@ std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::str
                 "What makes a mode likely: the mover's innovation given the landmarks' of the same batch, or "
                 "alone.")
         .choice("form", p.imm.form,
-                {{"auto", ImmForm::automatic}, {"exact", ImmForm::exact}, {"scalable", ImmForm::scalable}},
+                {{"auto", ImmForm::automatic},
+                 {"exact", ImmForm::exact},
+                 {"scalable", ImmForm::scalable},
+                 {"decoupled", ImmForm::decoupled}},
                 "exact: a joint Gaussian for each combination of the movers' modes; scalable: one joint "
                 "Gaussian and a "
                 "bank of modes for each mover; auto: exact up to max_exact_targets, scalable from the next "
                 "mover on "
-                "until all tracks have ended.")
+                "until all tracks have ended; decoupled: a baseline that leaves out what joint estimation is "
+                "for, robot "
+                "and map from landmarks alone and an IMM for each mover that takes the robot's covariance as "
+                "noise.")
         .integer("max_exact_targets", p.imm.max_exact_targets, Interval::between(1, 4),
                  "Movers in the exact form at most; where form = exact, further ones are ignored.");
     ParameterTable modes(name + ".modes", "Modes of movers and how movers change between them.");

@@ -39,7 +39,10 @@ struct TableSpec {
     std::string caption;
 };
 
-enum class PlotKind { over_parameter, against, over_time, bands };
+enum class PlotKind { over_parameter, against, over_time, bands, one_run };
+
+/// What a figure of one run shows.
+enum class OneRunShow { map, robot, target, landmark_errors, correlation, correlation_head };
 
 struct PlotSpec {
     std::string name;
@@ -50,6 +53,10 @@ struct PlotSpec {
     Selection selection;
     bool logarithmic_x = false, logarithmic_y = false;
     std::string title;
+    // Of one run only.
+    std::string source, config;
+    int replicate = 1;
+    OneRunShow show = OneRunShow::map;
 };
 
 struct CheckStatistic;  // CheckStatistic.cpp lists them
@@ -58,6 +65,7 @@ struct CheckSpec {
     std::string name, source, config, against, figure, series;
     const CheckStatistic* statistic = nullptr;  ///< never null once read
     GridPoint scenario_point, config_point;
+    std::optional<eval::Band> window;  ///< [s] of the series
     eval::Band interval;
     std::optional<eval::Band> short_interval;
     double missing = 0;  ///< largest part of the runs that may be without the figure or series

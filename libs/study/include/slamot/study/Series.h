@@ -7,6 +7,8 @@
 // target_error    distance of the target's position from truth [m]
 // target_nees     squared error of the target's position weighted by its covariance, with its dimension
 // landmark_count  landmarks in the map
+// landmark_error_by_age  root mean square distance from truth [m] of the landmarks detected at that age; its
+//                 seconds are the age, since a landmark was first seen
 // p_<mode>        probability of a motion mode of the target's track, for estimators that have that mode
 //
 // The target is the one of lowest id in the truth; its track is the one with that source id or, where no
@@ -28,19 +30,29 @@ void requireKnownSeries(const std::vector<std::string>& names, const std::string
 /// Whether it has dimensions, and so a chi-square band.
 bool isNeesSeries(const std::string& name);
 
-/// Number of landmarks at every stamp, which no RunRecord keeps.
-class LandmarkCounter : public run::Sink {
+/// A landmark's estimate after a detection of it.
+struct LandmarkSight {
+    Stamp stamp;
+    LandmarkEstimate landmark;
+};
+
+/// What no RunRecord keeps of the landmarks: their number at every stamp and, where a series of them is
+/// asked for, every sight.
+class LandmarkHistory : public run::Sink {
   public:
-    void step(const run::Step& step) override { counts_[step.estimate.stamp] = step.estimate.landmark_count; }
+    explicit LandmarkHistory(const std::vector<std::string>& series);
+    void step(const run::Step& step) override;
     const std::map<Stamp, std::int64_t>& counts() const { return counts_; }
+    const std::vector<LandmarkSight>& sights() const { return sights_; }
 
   private:
+    bool keeps_sights_;
     std::map<Stamp, std::int64_t> counts_;
+    std::vector<LandmarkSight> sights_;
 };
 
 /// The series asked for that this run has; `truth` may be null.
 std::map<std::string, Series> seriesOf(const std::vector<std::string>& names, const eval::RunRecord& record,
-                                       const std::map<Stamp, std::int64_t>& landmark_counts,
-                                       const Truth* truth);
+                                       const LandmarkHistory& landmarks, const Truth* truth);
 
 }  // namespace slamot::study

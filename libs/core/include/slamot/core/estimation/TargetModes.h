@@ -44,7 +44,8 @@ enum class ModeLikelihood {
 enum class ImmForm {
     automatic,  ///< exact while there are few movers, else scalable
     exact,      ///< one joint Gaussian for each combination of modes
-    scalable    ///< one joint Gaussian, and beside it a bank of modes for each mover
+    scalable,   ///< one joint Gaussian, and beside it a bank of modes for each mover
+    decoupled   ///< a baseline: an IMM for each mover that nothing couples with robot and map
 };
 
 struct ImmParameters {

@@ -1,0 +1,46 @@
+#pragma once
+// What joint estimation is measured against: robot and map from landmarks alone, and each mover tracked by an
+// IMM of its own that takes the robot's estimate for granted but for its covariance. Nothing couples movers
+// with robot and map: no correlation is kept, and no mover corrects the robot.
+#include <utility>
+
+#include "slamot/core/estimation/ModalState.h"
+#include "slamot/core/estimation/TargetBank.h"
+
+namespace slamot {
+
+class DecoupledImm : public ModalState {
+  public:
+    /// `bank` has one mode and no movers.
+    DecoupledImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank);
+
+    const JointBank& bank() const override { return *joint_; }
+    BlockVector mean(BlockId block) const override;
+    /// 0 between a mover and anything else.
+    BlockMatrix covariance(BlockId a, BlockId b) const override;
+    Eigen::MatrixXd jointCovariance(const std::vector<BlockId>& blocks) const override;
+    TargetBelief target(BlockId target) const override;
+
+    void predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) override;
+    void update(const RangeBearingSet& seen, const KnownObjects& known,
+                std::vector<Innovation>& innovations) override;
+    BlockId addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) override;
+    BlockId addTarget(const RangeBearingDetection& detection, const Pose2& sensor) override;
+    void removeTarget(BlockId target) override;
+
+  private:
+    void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
+                           std::vector<Innovation>& innovations);
+    void updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
+    std::size_t indexOf(BlockId target) const;
+    const TargetBank& trackerOf(BlockId target) const { return targets_[indexOf(target)].second; }
+
+    std::unique_ptr<JointBank> joint_;  ///< robot and landmarks
+    std::vector<std::pair<BlockId, TargetBank>> targets_;
+    BlockId last_target_;
+    Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
+    std::vector<LinearMeasurement> batch_;                ///< kept for its capacity
+    std::vector<Linearisation> linear_;
+};
+
+}  // namespace slamot
