@@ -19,7 +19,7 @@ class JointAtEnd : public run::Sink {
 OneRun again(const Plan& plan, const WorldPlan& planned, const RunPlan& run) {
     const World world(plan, planned, [] { return false; });
     Config config = plan.configs[run.config].config;
-    config.set("run", "seed", std::to_string(run.estimator_seed));
+    config.set("run", "seed", std::to_string(plan.estimatorSeedOf(planned, run)));
     const run::AssembledRun assembled = run::assembleRun(config, PluginRegistry::discover());
     const auto log = world.log(assembled.config.log);
     LandmarkHistory landmarks({"landmark_error_by_age"});  // the series that wants sights
@@ -32,8 +32,8 @@ OneRun again(const Plan& plan, const WorldPlan& planned, const RunPlan& run) {
     input.sinks = {&landmarks, &at_end};
     run::RunResult result = run::runSource(assembled, input);
 
-    OneRun out{std::move(result.record), std::nullopt, landmarks.sights(),
-               std::move(at_end.joint),  run.key,      result.estimate_hash};
+    OneRun out{std::move(result.record), std::nullopt,        landmarks.sights(), std::move(at_end.joint),
+               plan.keyOf(planned, run), result.estimate_hash};
     if (world.truth()) out.truth = *world.truth();
     return out;
 }
@@ -45,7 +45,7 @@ std::optional<OneRun> runAgain(const Plan& plan, const OneRunChoice& choice) {
         if (plan.sourceOf(world).name != choice.source || world.scenario_point != 0 ||
             world.replicate != choice.replicate)
             continue;
-        for (const RunPlan& run : world.runs)
+        for (const RunPlan& run : plan.runsOf(world))
             if (plan.variantOf(run).name == choice.config && run.config_point == 0)
                 return again(plan, world, run);
     }
