@@ -17,8 +17,9 @@ TrackRecord& ObjectCatalogue::addTrack(BlockId block, SourceId source, Stamp now
 }
 
 void ObjectCatalogue::removeTrack(TrackId id) {
-    tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), [id](const TrackRecord& t) { return t.id == id; }),
-                  tracks_.end());
+    tracks_.erase(
+        std::remove_if(tracks_.begin(), tracks_.end(), [id](const TrackRecord& t) { return t.id == id; }),
+        tracks_.end());
 }
 
 void ObjectCatalogue::markSeen(LandmarkId id, Stamp now) {
@@ -38,13 +39,14 @@ LandmarkRecord* ObjectCatalogue::landmarkBySource(SourceId source) {
 }
 
 TrackRecord* ObjectCatalogue::trackBySource(SourceId source) {
-    const auto found =
-        std::find_if(tracks_.begin(), tracks_.end(), [source](const TrackRecord& t) { return t.source == source; });
+    const auto found = std::find_if(tracks_.begin(), tracks_.end(),
+                                    [source](const TrackRecord& t) { return t.source == source; });
     return found == tracks_.end() ? nullptr : &*found;
 }
 
 const LandmarkRecord* ObjectCatalogue::landmark(LandmarkId id) const {
-    return id.valid() && id.value < static_cast<std::int64_t>(landmarks_.size()) ? &landmarks_[id.value] : nullptr;
+    return id.valid() && id.value < static_cast<std::int64_t>(landmarks_.size()) ? &landmarks_[id.value]
+                                                                                 : nullptr;
 }
 
 }  // namespace slamot

@@ -18,7 +18,7 @@ constexpr double regroup_after = 2.0;
 /// Directions that carry less than this part of a standard deviation, in the root mean square over all
 /// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
 /// much.
-constexpr double tolerance = 1e-11;
+constexpr double tolerance = 3e-12;
 /// What the end of a group leaves out, in parts of a variance.
 constexpr double negligible = 1e-13;
 constexpr std::size_t most_waiting = 3;

@@ -1,7 +1,6 @@
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
 #include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -36,7 +35,8 @@ Linearisation linearise(const JointView& state, BlockId block, const RangeBearin
     m.R = detection.covariance;
 
     if (consistency == Consistency::invariant) {
-        // Uncertainty across the line of sight lengthens the mean range by P_lat / 2d and spreads it by its square.
+        // Uncertainty across the line of sight lengthens the mean range by P_lat / 2d and spreads it by its
+        // square.
         Eigen::Matrix<double, 1, 5> lateral;
         lateral << h.across.transpose() * h.D_robot, h.across.transpose();
         const double d = std::max(h.z.x(), range_floor);
@@ -50,7 +50,8 @@ Linearisation linearise(const JointView& state, BlockId block, const RangeBearin
     H << h.H_robot, h.H_point;
     out.S = H * P * H.transpose() + m.R;
     const Eigen::LLT<Matrix2> factor(out.S);
-    if (factor.info() != Eigen::Success) throw std::domain_error("innovation covariance S is not positive definite");
+    if (factor.info() != Eigen::Success)
+        throw std::domain_error("innovation covariance S is not positive definite");
     out.nis = m.residual.dot(factor.solve(m.residual));
     return out;
 }
@@ -60,7 +61,8 @@ FirstSight firstSight(const JointView& state, const RangeBearingDetection& detec
     Vector2 z = detection.z();
     Matrix2 R = detection.covariance;
     if (consistency == Consistency::invariant) {
-        // A noisy bearing bends the cloud of possible positions into a banana: its mean lies nearer, and it is thicker.
+        // A noisy bearing bends the cloud of possible positions into a banana: its mean lies nearer, and it
+        // is thicker.
         const double bearing_variance = R(1, 1);
         R(0, 0) += 0.5 * (z.x() * bearing_variance) * (z.x() * bearing_variance);
         z.x() *= 1.0 - 0.5 * bearing_variance;
