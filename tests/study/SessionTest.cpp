@@ -120,6 +120,18 @@ TEST(ArgumentsOf, HasAllThatDecidesTheRows) {
     EXPECT_THAT(argumentsOf(wanted), ElementsAre("a b.ini", "--db", "c.db", "--short", "--any-build"));
 }
 
+TEST(TimesInWords, HasNoQuotientOfNothing) {
+    StudyProgress progress;
+    EXPECT_EQ(timesInWords(progress, 2, 0, 1), "nothing was run, in 2.0 s");
+    progress.done = progress.failed = 3;
+    EXPECT_EQ(timesInWords(progress, 2, 0, 1), "3 runs, 3 failed, in 2.0 s");
+    // Two threads for 2 s are 4 s, of which 3.2 s were runs: 0.8 / 3.2.
+    EXPECT_EQ(
+        timesInWords(progress, 2, 3.2, 2),
+        "3 runs, 3 failed, in 2.0 s; runs took 3.2 s, so speed-up 1.60 on 2 threads, engine and waiting "
+        "25.0 % of the runs");
+}
+
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
     EXPECT_EQ(shellLine({"slamot", "a/b-c_d.ini", "x=1,2"}), "slamot a/b-c_d.ini x=1,2");
     EXPECT_EQ(shellLine({"a b", "", "it's", "$HOME", "ü*"}), "'a b' '' 'it'\\''s' '$HOME' 'ü*'");

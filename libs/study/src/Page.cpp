@@ -102,7 +102,7 @@ std::string withLineEndsOf(const std::string& line, const std::string& content) 
 /// Makes the content of one mark; figures wait until the whole page is known to be good.
 class Filler {
   public:
-    Filler(const std::string& page, const Findings& findings, const Provenance& provenance,
+    Filler(const fs::path& page, const Findings& findings, const Provenance& provenance,
            const CheckReport* checks)
         : page_(page), findings_(findings), provenance_(provenance), checks_(checks) {}
 
@@ -171,7 +171,9 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
               const CheckReport* checks) {
     const std::vector<std::string> lines = linesOf(page);
-    Filler filler(page, findings, provenance, checks);
+    // Of a link, the page it leads to is filled.
+    const fs::path target = fs::canonical(page);
+    Filler filler(target, findings, provenance, checks);
     std::string text;
     bool any = false;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -200,7 +202,8 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
             fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
                         findings.study.name, findings.study.name));
     filler.draw();
-    PartFile file(page);
+    PartFile file(target.string());
+    fs::permissions(partOf(target.string()), fs::status(target).permissions());
     file.write(text);
     file.close();
 }
