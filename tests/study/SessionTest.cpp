@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "StudyFolder.h"
 #include "slamot/rawlog/LogError.h"
@@ -65,6 +66,24 @@ TEST_F(SessionTest, RowsThatMayNotBeWrittenCanBeRead) {
     }
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 4)
         << "the study's three files and the rows: nothing was left beside them";
+}
+
+TEST_F(SessionTest, RowsThatSomebodyElseIsWritingAreReadAsTheyCome) {
+    const SessionRequest wanted = request();
+    fill(wanted, 7);
+    Session writer(wanted, registry());
+    const std::vector<Row> all = run(writer.plan());
+    protect("a.db", 0755);
+    std::optional<Session> reader;
+    {
+        const AsNobody nobody;
+        reader.emplace(wanted, registry());
+        EXPECT_TRUE(reader->store().readOnly());
+        EXPECT_EQ(reader->rows().size(), 7u);
+    }
+    for (const Row& row : all) writer.store().add(row);
+    const AsNobody nobody;
+    EXPECT_EQ(reader->rows().size(), 8u);
 }
 
 TEST_F(SessionTest, RowsThatWouldHaveToBeWrittenAreASentence) {

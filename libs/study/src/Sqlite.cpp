@@ -40,12 +40,13 @@ std::string uriOf(const std::string& file, bool read_only) {
         else
             uri += c;
     if (!read_only) return uri + "?mode=rwc";
-    // Even to read, SQLite wants a -wal and a -shm, and cannot make them in a folder that may not be written
-    // to. Somebody who may write there may do so while this program reads: only where nothing else opens the
-    // file is it read as one that does not change, and never past rows that are still in a -wal.
+    // Even to read, SQLite wants a -wal and a -shm. They are there while somebody has the file open, who may
+    // write: then it is read with locks. Otherwise it is read as one that does not change: files of this user
+    // made beside it would stay, and the next who writes may not write to them. Never past rows in a -wal.
     std::error_code none;
-    const bool in_use = fs::file_size(file + "-wal", none) > 0 && !none;
-    return uri + (in_use || opens(uri + "?mode=ro") ? "?mode=ro" : "?immutable=1");
+    const auto in_wal = fs::file_size(file + "-wal", none);
+    const bool with_locks = !none && (in_wal > 0 || opens(uri + "?mode=ro"));
+    return uri + (with_locks ? "?mode=ro" : "?immutable=1");
 }
 
 }  // namespace
