@@ -202,10 +202,11 @@ void fillPage(const std::string& page, const Findings& findings, const Provenanc
             fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
                         findings.study.name, findings.study.name));
     filler.draw();
+    const fs::perms mode = fs::status(target).permissions();
     PartFile file(target.string());
-    fs::permissions(partOf(target.string()), fs::status(target).permissions());
     file.write(text);
     file.close();
+    fs::permissions(target, mode);
 }
 
 }  // namespace slamot::study
