@@ -163,10 +163,8 @@ std::vector<Panel> landmarkPanels(const OneRun& run) {
     }
     panel.layers.push_back(
         report::Points{"first sight", first_sights, colour::black, report::Symbol::dot, 7});
-    panel.note = fmt::format(
-        "{} of {} landmarks: of each seventh, by first sight, the one seen most often, where its "
-        "true position is known.",
-        first_sights.size(), landmarks.size());
+    panel.note = fmt::format("{} of {} landmarks: of each seventh, by first sight, the one seen most often.",
+                             first_sights.size(), landmarks.size());
     return {panel};
 }
 
