@@ -1,5 +1,5 @@
-// The two engines of the joint state against the size of the map: an update and a prediction alone. Whole steps
-// over whole runs: map_size_bench.
+// The two engines of the joint state against the size of the map: an update and a prediction alone. Whole
+// steps over whole runs: map_size_bench.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

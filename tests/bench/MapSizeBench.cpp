@@ -39,8 +39,9 @@ void say(const std::string& text) {
 
 std::string inWords(const char* program, const std::vector<StepTime>& times, double end_error) {
     const TimeSummary t = summarise(times);
-    return fmt::format("  {}: {} steps, median {:.3g} ms, 99 % {:.3g} ms, longest {:.3g} ms; position {:.2g} m off",
-                       program, t.steps, t.median, t.p99, t.longest, end_error);
+    return fmt::format(
+        "  {}: {} steps, median {:.3g} ms, 99 % {:.3g} ms, longest {:.3g} ms; position {:.2g} m off", program,
+        t.steps, t.median, t.p99, t.longest, end_error);
 }
 
 SizeResult measure(int landmarks, double step, const Patience& patience) {
@@ -130,6 +131,8 @@ void run(Options options, const std::string& command) {
         options.sizes.erase(std::remove_if(options.sizes.begin(), options.sizes.end(),
                                            [](int landmarks) { return landmarks > kf_slam_to; }),
                             options.sizes.end());
+    if (options.sizes.empty())
+        throw ConfigError(fmt::format("--quick leaves no size, expected one of at most {}", kf_slam_to));
     std::sort(options.sizes.begin(), options.sizes.end());
     const OtherLoad others;
     const Results results = measureAll(options);

@@ -1,5 +1,5 @@
 #pragma once
-// What issue-level demands on scale say, beside what was measured.
+// What the engines are asked for at scale, beside what was measured.
 #include "MapSizeReport.h"
 
 namespace slamot::bench {

@@ -7,12 +7,11 @@ namespace {
 
 namespace colour = report::colour;
 
-report::Panel panelOver(const std::string& title, const std::string& unit) {
+report::Panel panelOver(const std::string& quantity, const std::string& unit) {
     report::Panel panel;
-    panel.title = title;
     panel.height = 320;
     panel.x.label = "Landmarks in the map";
-    panel.y.label = title;
+    panel.y.label = quantity;
     panel.y.unit = unit;
     panel.x.logarithmic = panel.y.logarithmic = true;
     return panel;
@@ -47,15 +46,15 @@ report::Panel timePanel(const Results& results) {
             return summarise(size.compressed, [](const auto& step) { return step.second_pass; }).*figure;
         });
     };
-    addCurve(panel, "kf-slam, median", curve(results, [](const auto& s) { return medianOf(s.kf_slam); }),
+    addCurve(panel, "kf-slam", curve(results, [](const auto& s) { return medianOf(s.kf_slam); }),
              colour::green);
-    addCurve(panel, "dense, median", curve(results, [](const auto& s) { return medianOf(s.dense); }),
+    addCurve(panel, "dense engine", curve(results, [](const auto& s) { return medianOf(s.dense); }),
              colour::vermillion);
-    addCurve(panel, "compressed, longest", compressed(&TimeSummary::longest), colour::blue,
+    addCurve(panel, "compressed engine", compressed(&TimeSummary::median), colour::blue);
+    addCurve(panel, "its 99th percentile", compressed(&TimeSummary::p99), colour::blue, report::Dash::dashed);
+    addCurve(panel, "its longest step", compressed(&TimeSummary::longest), colour::blue,
              report::Dash::dotted);
-    addCurve(panel, "99th percentile", compressed(&TimeSummary::p99), colour::blue, report::Dash::dashed);
-    addCurve(panel, "median", compressed(&TimeSummary::median), colour::blue);
-    panel.note = "Compressed: all steps of the second pass over the map";
+    panel.note = "Medians; compressed: all steps of the second pass";
     return panel;
 }
 
@@ -64,15 +63,16 @@ report::Panel memoryPanel(const Results& results) {
     const auto megabytes = [](std::size_t bytes) {
         return std::optional<double>(1e-6 * static_cast<double>(bytes));
     };
-    addCurve(panel, "one full covariance",
-             curve(results, [&](const auto& s) { return megabytes(covarianceBytes(s.compressed.landmarks)); }),
-             colour::vermillion);
-    addCurve(panel, "compressed, the process at its peak",
-             curve(results, [&](const auto& s) { return megabytes(s.compressed.memory.resident); }),
-             colour::blue, report::Dash::dashed);
-    addCurve(panel, "its joint state",
+    addCurve(
+        panel, "one full covariance",
+        curve(results, [&](const auto& s) { return megabytes(covarianceBytes(s.compressed.landmarks)); }),
+        colour::vermillion);
+    addCurve(panel, "compressed engine",
              curve(results, [&](const auto& s) { return megabytes(s.compressed.memory.state); }),
              colour::blue);
+    addCurve(panel, "the whole process at its peak",
+             curve(results, [&](const auto& s) { return megabytes(s.compressed.memory.resident); }),
+             colour::blue, report::Dash::dashed);
     panel.note = "Compressed: one mode, all of the map seen twice";
     return panel;
 }

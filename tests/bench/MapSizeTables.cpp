@@ -35,6 +35,10 @@ TimeSummary summaryOf(const std::optional<FilledRun>& run) {
     return summarise(run ? run->times : std::vector<StepTime>{});
 }
 
+double seenIn(const std::optional<FilledRun>& run) {
+    return run ? run->seen : std::numeric_limits<double>::quiet_NaN();
+}
+
 double megabytes(std::size_t bytes) {
     return 1e-6 * static_cast<double>(bytes);
 }
@@ -55,14 +59,16 @@ TimeSummary summarise(const CompressedRun& run, const std::function<bool(const C
 study::Table timesTable(const Results& results) {
     study::Table table;
     table.columns = {numberColumn("landmarks", "landmarks"),
-                     numberColumn("seen a step", "seen"),
+                     numberColumn("seen a step", "compressed_seen"),
                      numberColumn("compressed, median [ms]", "compressed_median_ms"),
                      numberColumn("mean [ms]", "compressed_mean_ms"),
                      numberColumn("99th percentile [ms]", "compressed_p99_ms"),
                      numberColumn("dense, median [ms]", "dense_median_ms"),
                      numberColumn("steps", "dense_steps"),
+                     numberColumn("seen", "dense_seen"),
                      numberColumn("kf-slam, median [ms]", "kf_slam_median_ms"),
                      numberColumn("steps", "kf_slam_steps"),
+                     numberColumn("seen", "kf_slam_seen"),
                      numberColumn("dense / compressed, medians", "dense_ratio"),
                      numberColumn("kf-slam / compressed, medians", "kf_slam_ratio"),
                      numberColumn("kf-slam / compressed, means", "kf_slam_mean_ratio")};
@@ -72,9 +78,9 @@ study::Table timesTable(const Results& results) {
         table.lines.push_back(
             {{countField(size.compressed.landmarks), numberField(size.compressed.seen),
               numberField(compressed.median), numberField(compressed.mean), numberField(compressed.p99),
-              numberField(dense.median), countField(dense.steps), numberField(kf_slam.median),
-              countField(kf_slam.steps), numberField(dense.median / compressed.median),
-              numberField(kf_slam.median / compressed.median),
+              numberField(dense.median), countField(dense.steps), numberField(seenIn(size.dense)),
+              numberField(kf_slam.median), countField(kf_slam.steps), numberField(seenIn(size.kf_slam)),
+              numberField(dense.median / compressed.median), numberField(kf_slam.median / compressed.median),
               numberField(kf_slam.mean / compressed.mean)}});
     }
     return table;
@@ -98,10 +104,9 @@ study::Table passesTable(const Results& results) {
                               without = summaryOf(size.compressed, second, step_kinds[1]),
                               commits = summaryOf(size.compressed, second, step_kinds[3]);
             table.lines.push_back({{countField(size.compressed.landmarks), textField(passName(second)),
-                                    countField(all.steps), countField(commits.steps),
-                                    numberField(all.median), numberField(all.mean), numberField(without.p99),
-                                    numberField(all.p99), numberField(all.longest),
-                                    numberField(all.wall_longest)}});
+                                    countField(all.steps), countField(commits.steps), numberField(all.median),
+                                    numberField(all.mean), numberField(without.p99), numberField(all.p99),
+                                    numberField(all.longest), numberField(all.wall_longest)}});
         }
     return table;
 }
@@ -118,10 +123,10 @@ study::Table stepsTable(const Results& results) {
     for (const bool second : {false, true})
         for (const StepKind& kind : step_kinds) {
             const TimeSummary times = summaryOf(results.sizes.back().compressed, second, kind);
-            table.lines.push_back({{textField(passName(second)), textField(kind.name),
-                                    countField(times.steps), numberField(times.median),
-                                    numberField(times.p99), numberField(times.longest),
-                                    numberField(times.wall_longest)}});
+            table.lines.push_back(
+                {{textField(passName(second)), textField(kind.name), countField(times.steps),
+                  numberField(times.median), numberField(times.p99), numberField(times.longest),
+                  numberField(times.wall_longest)}});
         }
     return table;
 }
@@ -138,10 +143,10 @@ study::Table memoryTable(const Results& results) {
                      numberColumn("process / full", "resident_ratio")};
     const auto add = [&](int landmarks, const std::string& run, int modes, const MemoryUse& use) {
         const std::size_t full = covarianceBytes(landmarks);
-        table.lines.push_back({{countField(landmarks), textField(run), countField(modes),
-                                numberField(megabytes(use.state)), numberField(megabytes(use.resident)),
-                                numberField(megabytes(full)), numberField(ratio(use.state, full)),
-                                numberField(ratio(use.resident, full))}});
+        table.lines.push_back(
+            {{countField(landmarks), textField(run), countField(modes), numberField(megabytes(use.state)),
+              numberField(megabytes(use.resident)), numberField(megabytes(full)),
+              numberField(ratio(use.state, full)), numberField(ratio(use.resident, full))}});
     };
     for (const SizeResult& size : results.sizes)
         add(size.compressed.landmarks, "ekf_slamot, twice", 1, size.compressed.memory);
@@ -175,15 +180,15 @@ study::Table moversTable(const Results& results) {
 
 study::Table allTimesTable(const Results& results) {
     study::Table table;
-    for (const char* name : {"landmarks", "program", "pass", "steps_of", "seen", "steps", "mean_ms", "median_ms",
-                             "p99_ms", "longest_ms", "wall_median_ms", "wall_longest_ms"})
+    for (const char* name : {"landmarks", "program", "pass", "steps_of", "seen", "steps", "mean_ms",
+                             "median_ms", "p99_ms", "longest_ms", "wall_median_ms", "wall_longest_ms"})
         table.columns.push_back(textColumn(name, name));
     const auto add = [&](int landmarks, const std::string& program, const std::string& pass,
                          const std::string& kind, double seen, const TimeSummary& t) {
-        table.lines.push_back({{countField(landmarks), textField(program), textField(pass), textField(kind),
-                                numberField(seen), countField(t.steps), numberField(t.mean),
-                                numberField(t.median), numberField(t.p99), numberField(t.longest),
-                                numberField(t.wall_median), numberField(t.wall_longest)}});
+        table.lines.push_back(
+            {{countField(landmarks), textField(program), textField(pass), textField(kind), numberField(seen),
+              countField(t.steps), numberField(t.mean), numberField(t.median), numberField(t.p99),
+              numberField(t.longest), numberField(t.wall_median), numberField(t.wall_longest)}});
     };
     for (const SizeResult& size : results.sizes) {
         const int landmarks = size.compressed.landmarks;
@@ -191,8 +196,7 @@ study::Table allTimesTable(const Results& results) {
             for (const StepKind& kind : step_kinds)
                 add(landmarks, "compressed", passName(second), kind.name, size.compressed.seen,
                     summaryOf(size.compressed, second, kind));
-        if (size.dense)
-            add(landmarks, "dense", "", "all", size.dense->seen, summarise(size.dense->times));
+        if (size.dense) add(landmarks, "dense", "", "all", size.dense->seen, summarise(size.dense->times));
         if (size.kf_slam)
             add(landmarks, "kf-slam", "", "all", size.kf_slam->seen, summarise(size.kf_slam->times));
     }

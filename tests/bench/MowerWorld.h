@@ -40,7 +40,8 @@ class MowerWorld {
     std::size_t cellOf(const Vector2& p) const;
     void strew(int landmarks);
     void mow(double step);
-    RangeBearingDetection detect(const Pose2& robot, const Vector2& object, ObjectKind kind, int source) const;
+    RangeBearingDetection detect(const Pose2& robot, const Vector2& object, ObjectKind kind,
+                                 int source) const;
     void addNoise(RangeBearingDetection& detection);
 
     double side_, step_;  ///< [m]

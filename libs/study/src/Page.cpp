@@ -65,7 +65,8 @@ std::vector<std::string> sourcesWithoutWorld(const Plan& plan) {
     return without;
 }
 
-/// "NAME table TABLE" of `<!-- KEYWORD NAME table TABLE -->`, words one blank apart; empty for any other line.
+/// "NAME table TABLE" of `<!-- KEYWORD NAME table TABLE -->`, words one blank apart; empty for any other
+/// line.
 std::string markOf(const std::string& line, const std::string& keyword) {
     std::istringstream in(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
