@@ -30,7 +30,7 @@ enum Tag { unit_tag = 1, rows_tag };
 mpi::status waitFor(const mpi::communicator& world, int source, int tag) {
     for (;;) {
         if (const auto arrived = world.iprobe(source, tag)) return *arrived;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
 }
 
