@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -57,7 +58,11 @@ std::size_t availableMemory() {
 
 ResidentGrowth::ResidentGrowth() {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak is now
+    std::ofstream clear("/proc/self/clear_refs");
+    clear << 5 << std::flush;  // the peak is now
+    if (!clear)
+        throw std::runtime_error(
+            "/proc/self/clear_refs: cannot be written, expected a kernel that counts pages anew there");
     before_ = bytesOf("/proc/self/status", "VmRSS");
 }
 

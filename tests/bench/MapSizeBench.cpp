@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -103,13 +102,13 @@ void drawSvg(const Results& results, const fs::path& stem) {
 }
 
 void write(const Results& results, const std::string& stamp, const fs::path& folder) {
-    fs::create_directories(folder);
-    std::ofstream(folder / "map_size.csv") << toCsv(allTimesTable(results));
-    std::ofstream(folder / "map_size_memory.csv") << toCsv(memoryTable(results));
-    std::ofstream(folder / "map_size_movers.csv") << toCsv(moversTable(results));
-    std::ofstream text(folder / "map_size.md");
+    std::string text;
     for (const auto& [mark, content] : contents(results, stamp, "map_size"))
-        text << "`" << mark << "`\n\n" << content << "\n";
+        text += fmt::format("`{}`\n\n{}\n", mark, content);
+    study::writePage((folder / "map_size.md").string(), text);
+    study::writePage((folder / "map_size.csv").string(), toCsv(allTimesTable(results)));
+    study::writePage((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
+    study::writePage((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
     drawSvg(results, folder / "map_size");
 }
 
@@ -134,6 +133,7 @@ void run(Options options, const std::string& command) {
     if (options.sizes.empty())
         throw ConfigError(fmt::format("--quick leaves no size, expected one of at most {}", kf_slam_to));
     std::sort(options.sizes.begin(), options.sizes.end());
+    fs::create_directories(options.out);
     const OtherLoad others;
     const Results results = measureAll(options);
     const study::Provenance here = study::provenanceHere(command);

@@ -22,7 +22,7 @@ class MowerWorld {
 
     const std::vector<Pose2>& path() const { return path_; }
     bool secondPass(std::size_t step) const { return 2 * step > path_.size(); }
-    /// A step of the first pass from which a tenth of a lane can be driven in the midst of the map.
+    /// A step of the first pass near the centre of the map.
     std::size_t middle() const;
     Stamp stamp(std::size_t step) const;
 
