@@ -210,6 +210,22 @@ TEST_F(Page, StampSaysWhatIsNotThere) {
     EXPECT_THAT(stampLine(provenance, {study_, analysis_, rows, &plan}), HasSubstr(", from 1 runs: `slamot"));
 }
 
+TEST_F(Page, MarksOfAnotherKeywordAreFilledByTheirOwner) {
+    const std::string others = "<!-- study speed table a -->\nkept\n<!-- end -->\n";
+    write(others +
+          "<!-- bench speed table a -->\nold\n<!-- end -->\n<!-- bench size stamp -->\n<!-- end -->\n");
+    const auto content = [](const std::vector<std::string>& words) {
+        return words.front() + "+" + words.back() + "\n";
+    };
+    const std::string file = folder_.path("page.md");
+    EXPECT_EQ(filledText(file, "bench", "speed", content),
+              others +
+                  "<!-- bench speed table a -->\ntable+a\n<!-- end -->\n<!-- bench size stamp -->\n"
+                  "<!-- end -->\n");
+    EXPECT_THAT(messageOf<ConfigError>([&] { filledText(file, "bench", "weight", content); }),
+                HasSubstr("has no mark of the bench 'weight', expected <!-- bench weight table NAME -->"));
+}
+
 TEST(ProvenanceHere, KnowsDayAndMachine) {
     const Provenance here = provenanceHere("slamot study x.ini");
     EXPECT_THAT(here.date, testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]"));

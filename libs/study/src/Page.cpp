@@ -65,19 +65,20 @@ std::vector<std::string> sourcesWithoutWorld(const Plan& plan) {
     return without;
 }
 
-/// "NAME table TABLE" of `<!-- study NAME table TABLE -->`, words one blank apart; empty for any other line.
-std::string markOf(const std::string& line) {
+/// "NAME table TABLE" of `<!-- KEYWORD NAME table TABLE -->`, words one blank apart; empty for any other
+/// line.
+std::string markOf(const std::string& line, const std::string& keyword) {
     std::istringstream in(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
-    if (words.size() < 4 || words[0] != "<!--" || words[1] != "study" || words.back() != "-->") return {};
+    if (words.size() < 4 || words[0] != "<!--" || words[1] != keyword || words.back() != "-->") return {};
     return fmt::format("{}", fmt::join(words.begin() + 2, words.end() - 1, " "));
 }
 
-/// The words of a mark behind the study's name, which may hold blanks; nothing where it is another study's.
-std::optional<std::vector<std::string>> wordsBehind(const std::string& study, const std::string& mark) {
-    if (mark.rfind(study, 0) != 0) return std::nullopt;
-    if (mark.size() > study.size() && mark[study.size()] != ' ') return std::nullopt;
-    std::istringstream in(mark.substr(study.size()));
+/// The words of a mark behind the name, which may hold blanks; nothing where it is another name.
+std::optional<std::vector<std::string>> wordsBehind(const std::string& name, const std::string& mark) {
+    if (mark.rfind(name, 0) != 0) return std::nullopt;
+    if (mark.size() > name.size() && mark[name.size()] != ' ') return std::nullopt;
+    std::istringstream in(mark.substr(name.size()));
     return std::vector<std::string>{std::istream_iterator<std::string>(in), {}};
 }
 
@@ -168,45 +169,58 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
     return line + fmt::format(": {0}{1}{0}", fence, p.command);
 }
 
-void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
-              const CheckReport* checks) {
+std::string filledText(const std::string& page, const std::string& keyword, const std::string& name,
+                       const MarkContent& content) {
     const std::vector<std::string> lines = linesOf(page);
-    // Of a link, the page it leads to is filled.
-    const fs::path target = fs::canonical(page);
-    Filler filler(target, findings, provenance, checks);
     std::string text;
     bool any = false;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         text += lines[i] + '\n';
-        const auto words = wordsBehind(findings.study.name, markOf(lines[i]));
+        const auto words = wordsBehind(name, markOf(lines[i], keyword));
         if (!words) continue;
         any = true;
         const auto fail = [&](const std::string& problem) {
             throw ConfigError(fmt::format("{}:{}: {}", page, i + 1, problem));
         };
         std::size_t end = i + 1;
-        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" && markOf(lines[end]).empty())
+        while (end < lines.size() && trimmed(lines[end]) != "<!-- end -->" &&
+               markOf(lines[end], keyword).empty())
             ++end;
-        if (end == lines.size() || !markOf(lines[end]).empty())
+        if (end == lines.size() || !markOf(lines[end], keyword).empty())
             fail(fmt::format("'{}' has no end, expected <!-- end --> before the next mark",
                              trimmed(lines[i])));
         try {
-            text += withLineEndsOf(lines[i], filler.content(*words));
+            text += withLineEndsOf(lines[i], content(*words));
         } catch (const ConfigError& error) {
             fail(error.what());
         }
         i = end - 1;
     }
     if (!any)
-        throw ConfigError(
-            fmt::format("{}: has no mark of the study '{}', expected <!-- study {} table NAME -->", page,
-                        findings.study.name, findings.study.name));
-    filler.draw();
+        throw ConfigError(fmt::format("{}: has no mark of the {} '{}', expected <!-- {} {} table NAME -->",
+                                      page, keyword, name, keyword, name));
+    return text;
+}
+
+void writePage(const std::string& page, const std::string& text) {
+    // Of a link, the page it leads to is filled.
+    const fs::path target = fs::canonical(page);
     const fs::perms mode = fs::status(target).permissions();
     PartFile file(target.string());
     file.write(text);
     file.close();
     fs::permissions(target, mode);
+}
+
+void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
+              const CheckReport* checks) {
+    std::error_code missing;
+    const fs::path target = fs::canonical(page, missing);
+    Filler filler(missing ? page : target.string(), findings, provenance, checks);
+    const std::string text = filledText(page, "study", findings.study.name,
+                                        [&](const auto& words) { return filler.content(words); });
+    filler.draw();
+    writePage(page, text);
 }
 
 }  // namespace slamot::study

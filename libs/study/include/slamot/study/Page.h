@@ -1,7 +1,9 @@
 #pragma once
 // Tables and figures of a study in a page of the docs, between marks in comments.
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "slamot/study/Checks.h"
 #include "slamot/study/Tables.h"
@@ -34,5 +36,16 @@ std::string stampLine(const Provenance& provenance, const Findings& findings);
 /// this study; the page is then as it was. Throws report::ReportError where a figure cannot be drawn.
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
               const CheckReport* checks);
+
+/// What belongs to a mark, ending with a newline; `words` follow the name. Throws ConfigError for words that
+/// name nothing.
+using MarkContent = std::function<std::string(const std::vector<std::string>& words)>;
+
+/// A page's text with what stands between each `<!-- KEYWORD NAME words... -->` and the next `<!-- end -->`
+/// replaced. Throws ConfigError as fillPage does.
+std::string filledText(const std::string& page, const std::string& keyword, const std::string& name,
+                       const MarkContent& content);
+/// Replaces a page once all of it is written.
+void writePage(const std::string& page, const std::string& text);
 
 }  // namespace slamot::study

@@ -1,0 +1,168 @@
+// map_size_bench: the time and the memory of a step against the size of the map, for the two engines of the
+// joint state and MRPT's kf-slam, in one run. doc/results/map_size.md is filled by it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "Machine.h"
+#include "MapSizeChecks.h"
+#include "MapSizeReport.h"
+#include "slamot/core/Version.h"
+#include "slamot/core/config/Config.h"
+#include "slamot/report/FigureWriter.h"
+#include "slamot/study/Page.h"
+
+namespace slamot::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::vector<int> sizes{50, 100, 200, 400, 800, 1600, 4000, 10000};
+    double step = 0.1;  ///< [m]
+    bool quick = false;
+    std::string out = "map_size", page;
+};
+
+constexpr int kf_slam_to = 1600;  // a step of kf-slam takes the cube of the map
+constexpr int modes_from = 1000;  // in smaller maps most landmarks are active: nothing to compress
+constexpr int movers = 50, movers_landmarks = 1000;
+
+void say(const std::string& text) {
+    std::cerr << text << std::endl;
+}
+
+std::string inWords(const char* program, const std::vector<StepTime>& times, double end_error) {
+    const TimeSummary t = summarise(times);
+    return fmt::format(
+        "  {}: {} steps, median {:.3g} ms, 99 % {:.3g} ms, longest {:.3g} ms; position {:.2g} m off", program,
+        t.steps, t.median, t.p99, t.longest, end_error);
+}
+
+SizeResult measure(int landmarks, double step, const Patience& patience) {
+    say(fmt::format("{} landmarks", landmarks));
+    SizeResult result{runCompressed(landmarks, step), {}, {}};
+    std::vector<StepTime> times;
+    for (const CompressedStep& each : result.compressed.steps) times.push_back(each.time);
+    say(inWords("compressed", times, result.compressed.end_error));
+
+    if (denseBytes(landmarks) > availableMemory()) {
+        say(fmt::format("  dense: left out, it may need {} MB and {} MB are available",
+                        denseBytes(landmarks) / 1000000, availableMemory() / 1000000));
+    } else {
+        result.dense = runDense(landmarks, step, patience);
+        say(inWords("dense", result.dense->times, result.dense->end_error));
+    }
+    if (landmarks <= kf_slam_to) {
+        result.kf_slam = runKfSlam(landmarks, step, patience);
+        say(inWords("kf-slam", result.kf_slam->times, result.kf_slam->end_error));
+    }
+    return result;
+}
+
+Results measureAll(const Options& options) {
+    const Patience patience = options.quick ? Patience{10, 10} : Patience{};
+    Results results;
+    for (const int landmarks : options.sizes)
+        results.sizes.push_back(measure(landmarks, options.step, patience));
+    for (const int landmarks : options.sizes)
+        for (int modes = 1; modes <= 3 && landmarks >= modes_from; ++modes) {
+            say(fmt::format("memory of {} landmarks with {} modes", landmarks, modes));
+            results.modes.push_back({landmarks, modes, runModes(landmarks, modes)});
+        }
+    for (const auto& [name, engine] :
+         {std::pair("compressed", JointEngine::Kind::compressed), {"dense", JointEngine::Kind::dense}}) {
+        say(fmt::format("{} movers and {} landmarks, {}", movers, movers_landmarks, name));
+        results.movers.push_back(
+            {name, movers, movers_landmarks,
+             runMovers(engine, movers, movers_landmarks, options.step, {300, patience.seconds})});
+    }
+    return results;
+}
+
+/// What a page can have at `<!-- bench map_size ... -->`, each ending with a newline.
+std::map<std::string, std::string> contents(const Results& results, const std::string& stamp,
+                                            const std::string& figure) {
+    return {{"stamp", stamp + "\n"},
+            {"table checks", toMarkdown(checksTable(results))},
+            {"table times", toMarkdown(timesTable(results))},
+            {"table passes", toMarkdown(passesTable(results))},
+            {"table steps", toMarkdown(stepsTable(results))},
+            {"table memory", toMarkdown(memoryTable(results))},
+            {"table movers", toMarkdown(moversTable(results))},
+            {"figure", fmt::format("![Time of a step and memory by map size]({}.svg)\n", figure)}};
+}
+
+void drawSvg(const Results& results, const fs::path& stem) {
+    report::writeFigure(mapSizeFigure(results), stem, {false, true, false});
+}
+
+void write(const Results& results, const std::string& stamp, const fs::path& folder) {
+    std::string text;
+    for (const auto& [mark, content] : contents(results, stamp, "map_size"))
+        text += fmt::format("`{}`\n\n{}\n", mark, content);
+    study::writePage((folder / "map_size.md").string(), text);
+    study::writePage((folder / "map_size.csv").string(), toCsv(allTimesTable(results)));
+    study::writePage((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
+    study::writePage((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
+    drawSvg(results, folder / "map_size");
+}
+
+void fill(const Results& results, const std::string& stamp, const fs::path& page) {
+    const auto by_mark = contents(results, stamp, page.stem().string());
+    const std::string text =
+        study::filledText(page.string(), "bench", "map_size", [&](const std::vector<std::string>& words) {
+            const auto found = by_mark.find(fmt::format("{}", fmt::join(words, " ")));
+            if (found == by_mark.end())
+                throw ConfigError(fmt::format("'{}' is no mark of map_size", fmt::join(words, " ")));
+            return found->second;
+        });
+    drawSvg(results, page.parent_path() / page.stem());
+    study::writePage(page.string(), text);
+}
+
+void run(Options options, const std::string& command) {
+    if (options.quick)
+        options.sizes.erase(std::remove_if(options.sizes.begin(), options.sizes.end(),
+                                           [](int landmarks) { return landmarks > kf_slam_to; }),
+                            options.sizes.end());
+    if (options.sizes.empty())
+        throw ConfigError(fmt::format("--quick leaves no size, expected one of at most {}", kf_slam_to));
+    std::sort(options.sizes.begin(), options.sizes.end());
+    fs::create_directories(options.out);
+    const OtherLoad others;
+    const Results results = measureAll(options);
+    const study::Provenance here = study::provenanceHere(command);
+    const std::string stamp =
+        fmt::format("Filled on {}, {}, {} cores, slamot {}; others used {:.1f} % of the machine: `{}`",
+                    here.date, here.processor, here.cores, version, 100 * others.part(), here.command);
+    write(results, stamp, options.out);
+    if (!options.page.empty()) fill(results, stamp, options.page);
+    std::cout << toMarkdown(checksTable(results));
+}
+
+}  // namespace
+}  // namespace slamot::bench
+
+int main(int argc, char** argv) {
+    slamot::bench::Options options;
+    CLI::App app("Time and memory of a step against the size of the map.");
+    app.add_option("--sizes", options.sizes, "Landmarks, separated by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(50, 20000));
+    app.add_option("--step", options.step, "Metres between scans")->check(CLI::Range(0.01, 2.0));
+    app.add_flag("--quick", options.quick, "Sizes to 1600 only, a few steps of dense and kf-slam");
+    app.add_option("--out", options.out, "Folder of map_size.csv, .md and .svg");
+    app.add_option("--fill", options.page, "Page whose marks `<!-- bench map_size ... -->` are filled");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        slamot::bench::run(options, fmt::format("{}", fmt::join(argv, argv + argc, " ")));
+    } catch (const std::exception& error) {
+        std::cerr << "map_size_bench: " << error.what() << "\n";
+        return 1;
+    }
+}
