@@ -48,7 +48,7 @@ class ProgressLines {
     explicit ProgressLines(bool quiet) : quiet_(quiet) {}
     void operator()(const study::StudyProgress& now) {
         last = now;
-        if (quiet_ || Clock::now() - shown_ < std::chrono::seconds(5)) return;
+        if (quiet_ || now.done == 0 || Clock::now() - shown_ < std::chrono::seconds(5)) return;
         shown_ = Clock::now();
         const double elapsed = std::chrono::duration<double>(shown_ - begin_).count();
         fmt::print(stderr, "study {}/{} runs, {} failed, {:.1f} runs/s, {:.0f} s left\n", now.done, now.total,

@@ -91,6 +91,30 @@ TEST_F(CsvTable, TextsComeBackWhateverTheyHold) {
     EXPECT_EQ(csvField("two\r\nlines"), "two  lines") << "a row is one line";
 }
 
+TEST_F(CsvTable, QuotesThatDoNotFitAreErrors) {
+    writeBytes(path("a.csv"), "t,x\n1,2\n\"abc\"def,3\n");
+    CsvReader behind(path("a.csv"));
+    ASSERT_TRUE(behind.next());
+    EXPECT_THAT(messageOf([&] { behind.next(); }),
+                AllOf(HasSubstr("a.csv:3: field 1"), HasSubstr("closing quote, expected a comma")));
+    writeBytes(path("b.csv"), "t,x\n1,\"2\n3,4\n");
+    CsvReader open(path("b.csv"));
+    EXPECT_THAT(messageOf([&] { open.next(); }),
+                AllOf(HasSubstr("b.csv:2: field 2"), HasSubstr("no closing quote, expected one")));
+    writeBytes(path("c.csv"), "t,\"x\n1,2\n");
+    EXPECT_THAT(messageOf([&] { CsvReader reader(path("c.csv")); }), HasSubstr("c.csv:1: field 2"));
+}
+
+TEST_F(CsvTable, AQuoteBrokenOffInTheLastLineMayEndTheTable) {
+    writeBytes(path("a.csv"), "t,x\n1,2\n3,\"fo");
+    CsvReader broken(path("a.csv"), LastLine::may_be_cut);
+    EXPECT_TRUE(broken.next());
+    EXPECT_FALSE(broken.next());
+    CsvReader whole(path("a.csv"));
+    EXPECT_TRUE(whole.next());
+    EXPECT_THAT(messageOf([&] { whole.next(); }), HasSubstr("a.csv:3: field 2"));
+}
+
 TEST(CsvFields, NumbersComeBackUnchanged) {
     std::string line;
     appendField(line, 0.1 + 0.2);

@@ -163,6 +163,19 @@ TEST_F(Page, AFullDiskLeavesThePageAsItWas) {
     EXPECT_EQ(page(), text);
 }
 
+TEST_F(Page, OfALinkThePageItLeadsToIsFilledAndKeepsItsMode) {
+    namespace fs = std::filesystem;
+    fs::create_directory(folder_.path("real"));
+    const std::string real =
+        folder_.write("real/there.md", "<!-- study demo table errors -->\n<!-- end -->\n");
+    fs::permissions(real, fs::perms(0640));
+    fs::create_symlink("real/there.md", folder_.path("page.md"));
+    fill(rowsOf("paper1", "classic", {0.25}));
+    EXPECT_TRUE(fs::is_symlink(folder_.path("page.md")));
+    EXPECT_THAT(folder_.read("real/there.md"), HasSubstr("| classic |    1 |"));
+    EXPECT_EQ(fs::status(real).permissions(), fs::perms(0640));
+}
+
 TEST_F(Page, ACommandWithBackticksIsStillCode) {
     EXPECT_THAT(stampLine({"d", "p", 1, "slamot study 'a`b.ini'"}, {study_, analysis_, {}}),
                 HasSubstr(": ``slamot study 'a`b.ini'``"));

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "StudyFolder.h"
 #include "slamot/rawlog/LogError.h"
@@ -67,6 +68,24 @@ TEST_F(SessionTest, RowsThatMayNotBeWrittenCanBeRead) {
         << "the study's three files and the rows: nothing was left beside them";
 }
 
+TEST_F(SessionTest, RowsThatSomebodyElseIsWritingAreReadAsTheyCome) {
+    const SessionRequest wanted = request();
+    fill(wanted, 7);
+    Session writer(wanted, registry());
+    const std::vector<Row> all = run(writer.plan());
+    protect("a.db", 0755);
+    std::optional<Session> reader;
+    {
+        const AsNobody nobody;
+        reader.emplace(wanted, registry());
+        EXPECT_TRUE(reader->store().readOnly());
+        EXPECT_EQ(reader->rows().size(), 7u);
+    }
+    for (const Row& row : all) writer.store().add(row);
+    const AsNobody nobody;
+    EXPECT_EQ(reader->rows().size(), 8u);
+}
+
 TEST_F(SessionTest, RowsThatWouldHaveToBeWrittenAreASentence) {
     const SessionRequest wanted = request();
     fill(wanted, 7);
@@ -118,6 +137,18 @@ TEST(ArgumentsOf, HasAllThatDecidesTheRows) {
     wanted.short_form = true;
     wanted.replicates.reset();
     EXPECT_THAT(argumentsOf(wanted), ElementsAre("a b.ini", "--db", "c.db", "--short", "--any-build"));
+}
+
+TEST(TimesInWords, HasNoQuotientOfNothing) {
+    StudyProgress progress;
+    EXPECT_EQ(timesInWords(progress, 2, 0, 1), "nothing was run, in 2.0 s");
+    progress.done = progress.failed = 3;
+    EXPECT_EQ(timesInWords(progress, 2, 0, 1), "3 runs, 3 failed, in 2.0 s");
+    // Two threads for 2 s are 4 s, of which 3.2 s were runs: 0.8 / 3.2.
+    EXPECT_EQ(
+        timesInWords(progress, 2, 3.2, 2),
+        "3 runs, 3 failed, in 2.0 s; runs took 3.2 s, so speed-up 1.60 on 2 threads, engine and waiting "
+        "25.0 % of the runs");
 }
 
 TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {

@@ -168,6 +168,22 @@ class Study(SlamotTest):
         self.assertIn("slamot: stopped; the rows so far are kept", stderr)
         self.finishAndCompare("stopped.db")
 
+    def test_ctrl_c_stops_the_run_of_a_figure(self):
+        self.files(steps=200000, study=STUDY + "[figure.map]\nkind = one_run\nsource = far\nconfig = classic\n"
+                                               "show = map\n")
+        run = subprocess.Popen([PROGRAM, "study", "small.ini", "--db", "a.db", "--no-run", "--export", "out"],
+                               cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.kill)
+        # Figures are what is written last.
+        while not (self.folder / "out/ranks.csv").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.02)
+        run.send_signal(signal.SIGINT)
+        _, stderr = run.communicate(timeout=TIMEOUT_SECONDS)
+        self.assertEqual(run.returncode, 1, stderr)
+        self.assertIn("slamot: stopped while a run was made again for a figure", stderr)
+        self.assertFalse((self.folder / "out/figures/map.svg").exists())
+
     def mpi(self, ranks, db, *arguments):
         if not shutil.which("mpirun") or not pathlib.Path(MPI_PROGRAM).exists():
             self.skipTest("no mpirun or no slamot_study_mpi (packages libboost-mpi-dev openmpi-bin)")

@@ -8,6 +8,7 @@
 #include "SessionOptions.h"
 #include "slamot/study/Checks.h"
 #include "slamot/study/Export.h"
+#include "slamot/study/OneRun.h"
 #include "slamot/study/Page.h"
 #include "slamot/study/Session.h"
 
@@ -87,7 +88,7 @@ void tellWhatIsNotKept(const study::Session& session, const std::string& folder,
                    without);
 }
 
-/// Runs what is missing; false when stopped before its end.
+/// Runs what is missing; whether all of it was.
 bool runMissing(study::Session& session, const Options& options, const study::Shard& shard,
                 const PluginRegistry& registry, std::chrono::steady_clock::time_point begin,
                 const Verbosity& verbosity) {
@@ -113,7 +114,9 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
     if (!options.keep.empty()) tellWhatIsNotKept(session, options.keep, units, shard);
     if (!verbosity.quiet)
         fmt::print("{}\n", study::timesInWords(last, secondsSince(begin), times.runs_s, options.threads));
-    return !interrupted();
+    std::size_t wanted = 0;
+    for (const study::Unit& unit : units) wanted += unit.runs.size();
+    return last.done == wanted;
 }
 
 /// The command that makes a page again.
@@ -126,14 +129,16 @@ std::string commandOf(const Options& options, const std::string& page) {
 }
 
 /// What the rows say, where it was asked for; false when a check failed.
-bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options) {
+bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options,
+                  const PluginRegistry& registry) {
     if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
     const std::vector<study::Row> rows = session.rows();
     if (rows.empty() && !options.pages.empty())
         throw UsageError(
             fmt::format("--fill: {} has no rows of this study, expected some before pages are filled",
                         options.session.store_file));
-    const study::Findings findings{session.plan().study, analysis, rows, &session.plan()};
+    study::OneRuns one_runs(session.plan(), registry, &interrupted());
+    const study::Findings findings{session.plan().study, analysis, rows, &session.plan(), &one_runs};
     study::CheckReport checks;
     if (options.check) {
         checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
@@ -207,7 +212,7 @@ int studyJob(const Options& options, const Verbosity& verbosity) {
         fmt::print("{}\n", state);
     if (!complete)
         throw std::runtime_error("stopped; the rows so far are kept, the same command does the rest");
-    return tellFindings(session, analysis, options) && !merged_in_part ? exit_success : exit_failed;
+    return tellFindings(session, analysis, options, registry) && !merged_in_part ? exit_success : exit_failed;
 }
 
 }  // namespace

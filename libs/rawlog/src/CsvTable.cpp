@@ -24,9 +24,14 @@ std::string trimmed(std::string field) {
     return field;
 }
 
+struct Fields {
+    std::vector<std::string> texts;
+    std::string problem;  ///< with what was expected; empty where the line is well formed
+};
+
 /// What stands between quotes keeps its commas and blanks; a doubled quote is one.
-std::vector<std::string> fieldsOf(const std::string& line) {
-    std::vector<std::string> fields;
+Fields fieldsOf(const std::string& line) {
+    Fields fields;
     std::size_t at = 0;
     for (;;) {
         std::string field;
@@ -38,13 +43,20 @@ std::vector<std::string> fieldsOf(const std::string& line) {
                 if (line[at] == '"') ++at;
                 field += line[at];
             }
-            at = line.find(',', at);
+            if (at >= line.size())
+                return {{},
+                        fmt::format("field {} has no closing quote, expected one", fields.texts.size() + 1)};
+            at = line.find_first_not_of(" \t", at + 1);
+            if (at != std::string::npos && line[at] != ',')
+                return {{},
+                        fmt::format("field {} goes on behind its closing quote, expected a comma",
+                                    fields.texts.size() + 1)};
         } else {
             const std::size_t comma = line.find(',', at);
             field = trimmed(line.substr(at, comma - at));
             at = comma;
         }
-        fields.push_back(std::move(field));
+        fields.texts.push_back(std::move(field));
         if (at == std::string::npos || at >= line.size()) return fields;
         ++at;
     }
@@ -69,7 +81,9 @@ CsvReader::CsvReader(const std::string& file, LastLine last_line)
         throw LogError(
             fmt::format("{}:1: the header row is missing, expected the names of the columns", file));
     removeCarriageReturn(line);
-    header_ = fieldsOf(line);
+    Fields header = fieldsOf(line);
+    if (!header.problem.empty()) throw LogError(fmt::format("{}:1: {}", file, header.problem));
+    header_ = std::move(header.texts);
     line_ = 1;
 }
 
@@ -93,9 +107,11 @@ bool CsvReader::next() {
         removeCarriageReturn(line);
     } while (line.empty());
     const bool unfinished = in_.eof();
-    fields_ = fieldsOf(line);
-    if (fields_.size() == header_.size()) return true;
+    Fields fields = fieldsOf(line);
+    fields_ = std::move(fields.texts);
+    if (fields.problem.empty() && fields_.size() == header_.size()) return true;
     if (unfinished && last_line_ == LastLine::may_be_cut) return false;
+    if (!fields.problem.empty()) throw LogError(fmt::format("{}:{}: {}", file_, line_, fields.problem));
     throw LogError(fmt::format("{}:{}: has {} fields, expected {} as in the header", file_, line_,
                                fields_.size(), header_.size()));
 }

@@ -80,15 +80,15 @@ class Exporter {
         std::set<std::string> metrics;
         for (const Row& row : findings.rows)
             for (const auto& [name, value] : row.metrics) metrics.insert(name);
-        figures_.assign(metrics.begin(), metrics.end());
-        for (const auto& [cost, field] : cost_fields) figures_.push_back(std::string("cost.") + cost);
+        figure_names_.assign(metrics.begin(), metrics.end());
+        for (const auto& [cost, field] : cost_fields) figure_names_.push_back(std::string("cost.") + cost);
     }
 
     void rows() const {
         CellCsv csv(
             folder_ / "rows.csv", study_,
             Words{"replicate", "key", "world_seed", "estimator_seed", "status", "reason", "estimate_hash"} +
-                figures_ + Words{"cost.host"});
+                figure_names_ + Words{"cost.host"});
         for (const Row& row : findings_.rows) {
             Words fields = {std::to_string(row.replicate),
                             row.key,
@@ -97,7 +97,8 @@ class Exporter {
                             row.status,
                             row.reason,
                             row.estimate_hash};
-            for (const std::string& figure : figures_) fields.push_back(csvNumber(figureOf(row, figure)));
+            for (const std::string& figure : figure_names_)
+                fields.push_back(csvNumber(figureOf(row, figure)));
             fields.push_back(row.cost.host);
             csv.line(row.source, row.scenario_point, row.variant, row.config_point, fields);
         }
@@ -107,7 +108,7 @@ class Exporter {
     void cells() const {
         CellCsv csv(folder_ / "cells.csv", study_, Words{"runs", "figure"} + statistic_columns);
         for (const Cell& cell : cells_)
-            for (const std::string& figure : figures_)
+            for (const std::string& figure : figure_names_)
                 if (const Statistic s = statisticOf(figureOf(cell, figure)); s.count > 0)
                     csv.line(cell, Words{std::to_string(cell.rows.size()), figure} + fieldsOf(s));
         csv.close();
@@ -121,7 +122,7 @@ class Exporter {
             for (const std::string& against : all_.configs) {
                 const Cell* other = cellOf(cells_, cell, against);
                 if (!other || other == &cell) continue;
-                for (const std::string& figure : figures_) {
+                for (const std::string& figure : figure_names_) {
                     const Paired pair = compare(cell, *other, figure);
                     if (pair.difference.count == 0) continue;
                     csv.line(cell, Words{against, figure, std::to_string(pair.difference.count)} +
@@ -170,7 +171,7 @@ class Exporter {
             Words configs;
             for (const Variant& variant : study_.variants)
                 if (runsOnAll(variant, sources)) configs.push_back(variant.name);
-            for (const std::string& figure : figures_)
+            for (const std::string& figure : figure_names_)
                 for (const Ranked& ranked : rank(findings_.rows, sources, configs, figure))
                     if (ranked.rank.count > 0)
                         file.write(csvLine(Words{name, figure, ranked.variant} + fieldsOf(ranked.rank)));
@@ -186,7 +187,7 @@ class Exporter {
         }
     }
 
-    void figures() const {
+    void plots() const {
         for (const PlotSpec& spec : findings_.analysis.plots)
             report::writeFigure(makeFigure(spec, findings_), folder_ / "figures" / spec.name,
                                 {false, true, false});
@@ -209,7 +210,7 @@ class Exporter {
     fs::path folder_;
     Selection all_;
     std::vector<Cell> cells_;
-    Words figures_;
+    Words figure_names_;
 };
 
 std::vector<fs::path> filesOf(const Analysis& analysis) {
@@ -236,7 +237,7 @@ void exportStudy(const Findings& findings, const std::string& folder) {
     exporter.consistency();
     exporter.ranks();
     exporter.tables();
-    exporter.figures();
+    exporter.plots();
 }
 
 }  // namespace slamot::study

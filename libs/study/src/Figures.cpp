@@ -11,6 +11,7 @@
 #include "OverTime.h"
 #include "Selected.h"
 #include "slamot/report/Figure.h"
+#include "slamot/study/OneRun.h"
 
 namespace slamot::study {
 namespace {
@@ -317,32 +318,45 @@ class Drawing {
     std::vector<std::string> labels_;  ///< of all lines, in the order of their colours
 };
 
-/// Whether the run made again is that of the rows, where they have it.
-bool isOfRows(const OneRun& run, const std::vector<Row>& rows) {
-    return std::none_of(rows.begin(), rows.end(), [&](const Row& row) {
-        return row.key == run.key && !hasFailed(row) && row.estimate_hash != run.estimate_hash;
-    });
-}
-
-report::Figure noRunFigure(const PlotSpec& spec) {
+report::Figure noteFigure(const PlotSpec& spec, const std::string& note) {
     report::Figure figure;
     figure.title = spec.title;
-    figure.panels.emplace_back().note = "no such run";
+    figure.panels.emplace_back().note = note;
+    return figure;
+}
+
+/// A row's or a run's, which did not end `complete`.
+std::string noteOf(const std::string& status, const std::string& reason) {
+    return fmt::format("the run {}{}{}", status == "failed" ? "" : "is ", status,
+                       reason.empty() ? "" : ": " + reason);
+}
+
+report::Figure figureOfOneRun(const PlotSpec& spec, const Findings& findings) {
+    if (!findings.one_runs) return noteFigure(spec, "no such run");
+    const Plan& plan = findings.one_runs->plan();
+    const auto index = findRun(plan, {spec.source, spec.config, spec.replicate});
+    if (!index) return noteFigure(spec, "no such run");
+    const WorldPlan& world = plan.worlds[index->first];
+    const std::string key = plan.keyOf(world, plan.runsOf(world)[index->second]);
+    const auto row = std::find_if(findings.rows.begin(), findings.rows.end(),
+                                  [&](const Row& one) { return one.key == key; });
+    const bool has_row = row != findings.rows.end();
+    if (has_row && hasFailed(*row)) return noteFigure(spec, noteOf(row->status, row->reason));
+
+    const OneRun& run = findings.one_runs->again(*index);
+    if (run.status != "complete") return noteFigure(spec, noteOf(run.status, run.reason));
+    report::Figure figure = oneRunFigure(spec, run);
+    if (!has_row)
+        figure.subtitle = "not among the rows";
+    else if (row->estimate_hash != run.estimate_hash)
+        figure.subtitle = "not as in the rows: another build";
     return figure;
 }
 
 }  // namespace
 
 report::Figure makeFigure(const PlotSpec& spec, const Findings& findings) {
-    if (spec.kind == PlotKind::one_run) {
-        const auto run = findings.plan ? runAgain(*findings.plan, {spec.source, spec.config, spec.replicate})
-                                       : std::nullopt;
-        if (!run) return noRunFigure(spec);
-        report::Figure figure = oneRunFigure(spec, *run);
-        if (!isOfRows(*run, findings.rows)) figure.subtitle = "not as in the rows: another build";
-        return figure;
-    }
-    return Drawing(spec, findings).figure();
+    return spec.kind == PlotKind::one_run ? figureOfOneRun(spec, findings) : Drawing(spec, findings).figure();
 }
 
 }  // namespace slamot::study

@@ -8,7 +8,8 @@ namespace slamot::study {
 /// Tells the thread sanitizer what it cannot see: oneTBB's library is not instrumented, so that what the
 /// caller wrote before it began tasks, and what tasks wrote before they ended, would look unordered with what
 /// is read later. The caller has one around the tasks, each task one before it touches anything. Tasks that
-/// run at the same time stay unordered, so races between them are found.
+/// overlap in a run stay unordered, so races between them are found; tasks that did not overlap in this run
+/// look ordered.
 class HandOver {
   public:
     HandOver() { pass(); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "slamot/core/data/Angle.h"
 #include "slamot/report/Overview.h"
@@ -162,8 +163,8 @@ std::vector<Panel> landmarkPanels(const OneRun& run) {
     }
     panel.layers.push_back(
         report::Points{"first sight", first_sights, colour::black, report::Symbol::dot, 7});
-    panel.note = fmt::format("7 of {} landmarks: of each seventh, by first sight, the one seen most often.",
-                             landmarks.size());
+    panel.note = fmt::format("{} of {} landmarks: of each seventh, by first sight, the one seen most often.",
+                             first_sights.size(), landmarks.size());
     return {panel};
 }
 
@@ -209,10 +210,12 @@ std::vector<Panel> correlationPanels(const OneRun& run) {
     constexpr double young_age = 5;  // [s]
     const JointCovariance& joint = run.joint;
     const Stamp end = run.record.trajectory.back().stamp;
+    std::set<LandmarkId> young_ones;
+    for (const LandmarkEstimate& l : run.record.landmarks)
+        if (secondsBetween(l.first_seen, end) < young_age) young_ones.insert(l.id);
     // Landmarks stand in the order of their first sight: the young ones are last.
-    const auto young = std::count_if(
-        run.record.landmarks.begin(), run.record.landmarks.end(),
-        [&](const LandmarkEstimate& l) { return secondsBetween(l.first_seen, end) < young_age; });
+    const auto young = std::count_if(joint.landmarks.begin(), joint.landmarks.end(),
+                                     [&](LandmarkId id) { return young_ones.count(id) > 0; });
     const int all = static_cast<int>(joint.matrix.rows()), landmarks = firstLandmarkRow(joint),
               young_row = all - 2 * static_cast<int>(young);
 
@@ -221,14 +224,15 @@ std::vector<Panel> correlationPanels(const OneRun& run) {
     const auto name = [&](int from, int to, const char* what) {
         if (to > from) names[static_cast<std::size_t>((from + to) / 2)] = what;
     };
-    name(0, landmarks, "robot, target");
+    const bool has_target = !joint.tracks.empty();
+    name(0, landmarks, has_target ? "robot, target" : "robot");
     name(landmarks, young_row, "landmarks");
     name(young_row, all, "young");
     nameCells(panel, all, names);
     for (std::string& row : panel.y.categories)
         if (row == names[static_cast<std::size_t>(landmarks / 2)]) row.clear();  // no room beside the axis
     panel.y.categories.back() = "robot";
-    panel.y.categories[static_cast<std::size_t>(all - landmarks)] = "target";
+    if (has_target) panel.y.categories[static_cast<std::size_t>(all - landmarks)] = "target";
     panel.height = correlation_size;
     report::HeatMap map = heatMapOf(joint, all, all);
     map.values = map.values.cwiseAbs();
@@ -253,7 +257,8 @@ std::vector<Panel> correlationHeadPanels(const OneRun& run) {
         for (const char* axis : {"x", "y"}) names.push_back(fmt::format("{}{}", axis, i + 1));
     Panel panel;
     nameCells(panel, rows, names);
-    panel.x.label = "robot, target, the first ten landmarks";
+    panel.x.label =
+        joint.tracks.empty() ? "robot, the first ten landmarks" : "robot, target, the first ten landmarks";
     panel.height = 24.0 * rows;
     report::HeatMap map = heatMapOf(joint, rows, columns);
     map.label = "correlation";

@@ -1,8 +1,8 @@
 #pragma once
 // Figures of one run of a study: the kind `one_run`.
-#include "OneRun.h"
 #include "slamot/report/Figure.h"
 #include "slamot/study/AnalysisFile.h"
+#include "slamot/study/OneRun.h"
 
 namespace slamot::study {
 

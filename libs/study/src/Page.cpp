@@ -103,7 +103,7 @@ std::string withLineEndsOf(const std::string& line, const std::string& content) 
 /// Makes the content of one mark; figures wait until the whole page is known to be good.
 class Filler {
   public:
-    Filler(const std::string& page, const Findings& findings, const Provenance& provenance,
+    Filler(const fs::path& page, const Findings& findings, const Provenance& provenance,
            const CheckReport* checks)
         : page_(page), findings_(findings), provenance_(provenance), checks_(checks) {}
 
@@ -203,14 +203,17 @@ std::string filledText(const std::string& page, const std::string& keyword, cons
 }
 
 void writePage(const std::string& page, const std::string& text) {
-    PartFile file(page);
+    const fs::path target = fs::canonical(page);
+    const fs::perms mode = fs::status(target).permissions();
+    PartFile file(target.string());
     file.write(text);
     file.close();
+    fs::permissions(target, mode);
 }
 
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
               const CheckReport* checks) {
-    Filler filler(page, findings, provenance, checks);
+    Filler filler(fs::weakly_canonical(page), findings, provenance, checks);
     const std::string text = filledText(page, "study", findings.study.name,
                                         [&](const auto& words) { return filler.content(words); });
     filler.draw();

@@ -7,13 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <new>
 #include <optional>
-#include <stdexcept>
-#include <system_error>
 
 #include "Meters.h"
-#include "World.h"
+#include "WorldRun.h"
 #include "slamot/core/plugin/Detector.h"
 #include "slamot/core/plugin/ErrorText.h"
 #include "slamot/core/plugin/Estimator.h"
@@ -76,12 +73,6 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     row.cost.step_ms_max = number(time["step_ms"]["max"]);
 }
 
-/// What went wrong with writing, whatever it was: no fault of the method's.
-class OutputError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
 /// Tells the errors of another sink from those of the run.
 class CheckedSink : public run::Sink {
   public:
@@ -108,52 +99,27 @@ class CheckedSink : public run::Sink {
     run::Sink& sink_;
 };
 
-/// The sentence of an error of method, config or the log's contents, which comes again whenever the run is
-/// done: a plugin may throw what it likes. Outputs, memory and files are no fault of the method's: thrown on,
-/// they end the study. To be called within a catch.
-std::string sentenceOfFailure() {
-    try {
-        throw;
-    } catch (const OutputError&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::system_error&) {
-        throw;
-    } catch (const std::exception& error) {
-        return sentenceOf(error);
-    }
-}
-
 /// Runs the config through the world; an exception is one that ends the study.
-run::RunStatus runInto(Row& row, const Plan& plan, const RunPlan& run, const World& world,
-                       const std::string& folder, const PluginRegistry& registry,
+run::RunStatus runInto(Row& row, const Plan& plan, const WorldPlan& planned, const RunPlan& planned_run,
+                       const World& world, const std::string& folder, const PluginRegistry& registry,
                        const UnitOptions& options) {
-    Config config = plan.configs[run.config].config;
-    config.set("run", "seed", std::to_string(row.estimator_seed));
     MemoryMeter memory;
     if (options.measure_memory) memory.start();
-    const run::AssembledRun assembled = run::assembleRun(config, registry);
-    const auto log = world.log(assembled.config.log);
+    WorldRun run(plan, planned, planned_run, world, registry);
     LandmarkHistory landmarks(plan.study.parameters.series);
-    run::RunInput input;
-    input.source = log.get();
-    input.log_name = world.name();
-    input.truth = world.truth();
-    input.truth_name = world.truth() ? world.name() : "";
-    input.stop = options.stop;
-    input.sinks.push_back(&landmarks);
+    run.input.stop = options.stop;
+    run.input.sinks.push_back(&landmarks);
     std::optional<run::OutputFolder> output;
     std::vector<std::unique_ptr<CheckedSink>> checked;
     if (!folder.empty()) {
-        output.emplace(folder, assembled, "");
+        output.emplace(folder, run.assembled, "");
         for (run::Sink* sink : output->sinks()) checked.push_back(std::make_unique<CheckedSink>(*sink));
-        for (const auto& sink : checked) input.sinks.push_back(sink.get());
+        for (const auto& sink : checked) run.input.sinks.push_back(sink.get());
     }
     const double cpu_begin = run::threadCpuSeconds();
     run::RunResult result;
     try {
-        result = run::runSource(assembled, input);
+        result = run::runSource(run.assembled, run.input);
     } catch (const std::exception&) {
         row.status = toText(run::RunStatus::failed);
         row.reason = world.withoutPlace(sentenceOfFailure());
@@ -194,8 +160,9 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
         const auto begin = std::chrono::steady_clock::now();
         Row& row = rows[i];
         row.cost.simulate_s = world->secondsToMake() / static_cast<double>(unit.runs.size());
-        const run::RunStatus status = runInto(
-            row, plan, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run), registry, options);
+        const run::RunStatus status =
+            runInto(row, plan, planned, run, *world, folder.empty() ? "" : folder + "/" + plan.nameOf(run),
+                    registry, options);
         if (status == run::RunStatus::stopped) {
             rows.resize(i);
             return rows;

@@ -113,13 +113,13 @@ std::string Session::stateInWords() const {
 
 std::string timesInWords(const StudyProgress& progress, double wall_s, double runs_s, int threads) {
     if (progress.done == 0) return fmt::format("nothing was run, in {:.1f} s", wall_s);
+    const std::string counts =
+        fmt::format("{} runs, {} failed, in {:.1f} s", progress.done, progress.failed, wall_s);
+    if (runs_s <= 0 || wall_s <= 0) return counts;
     const double engine = wall_s * threads - runs_s;
     return fmt::format(
-        "{} runs, {} failed, in {:.1f} s; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and "
-        "waiting {:.1f} % "
-        "of the runs",
-        progress.done, progress.failed, wall_s, runs_s, runs_s / wall_s, threads, threads == 1 ? "" : "s",
-        100 * engine / runs_s);
+        "{}; runs took {:.1f} s, so speed-up {:.2f} on {} thread{}, engine and waiting {:.1f} % of the runs",
+        counts, runs_s, runs_s / wall_s, threads, threads == 1 ? "" : "s", 100 * engine / runs_s);
 }
 
 }  // namespace slamot::study

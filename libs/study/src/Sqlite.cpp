@@ -17,19 +17,36 @@ bool mayWrite(const fs::path& path) {
     return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
 }
 
+/// Whether SQLite can make, or finds, the files beside it that it needs; other mistakes come to light, with
+/// their message, when the file is read.
+bool opens(const std::string& uri) {
+    sqlite3* handle = nullptr;
+    int code = sqlite3_open_v2(uri.c_str(), &handle, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    // The file itself is not touched before it is read.
+    if (code == SQLITE_OK) {
+        sqlite3_exec(handle, "SELECT 1 FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
+        code = sqlite3_extended_errcode(handle);
+    }
+    sqlite3_close(handle);
+    return (code & 0xff) != SQLITE_CANTOPEN && code != SQLITE_READONLY_DIRECTORY;
+}
+
 /// https://www.sqlite.org/uri.html
-std::string uriOf(const std::string& file) {
+std::string uriOf(const std::string& file, bool read_only) {
     std::string uri = "file:";
     for (const char c : file)
         if (c == '%' || c == '?' || c == '#')
             uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
         else
             uri += c;
-    if (!isReadOnly(file)) return uri + "?mode=rwc";
-    // Where nobody has the file open, there is no -wal: SQLite would want to make one even to read.
+    if (!read_only) return uri + "?mode=rwc";
+    // Even to read, SQLite wants a -wal and a -shm. They are there while somebody has the file open, who may
+    // write: then it is read with locks. Otherwise it is read as one that does not change: files of this user
+    // made beside it would stay, and the next who writes may not write to them. Never past rows in a -wal.
     std::error_code none;
-    const bool in_use = fs::file_size(file + "-wal", none) > 0 && !none;
-    return uri + (in_use ? "?mode=ro" : "?immutable=1");
+    const auto in_wal = fs::file_size(file + "-wal", none);
+    const bool with_locks = !none && (in_wal > 0 || opens(uri + "?mode=ro"));
+    return uri + (with_locks ? "?mode=ro" : "?immutable=1");
 }
 
 }  // namespace
@@ -43,7 +60,8 @@ bool isReadOnly(const std::string& file) {
 Database::Database(const std::string& file) : file_(file), read_only_(isReadOnly(file)) {
     sqlite3* handle = nullptr;
     const int how = read_only_ ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-    const int code = sqlite3_open_v2(uriOf(file).c_str(), &handle, how | SQLITE_OPEN_URI, nullptr);
+    const int code =
+        sqlite3_open_v2(uriOf(file, read_only_).c_str(), &handle, how | SQLITE_OPEN_URI, nullptr);
     handle_.reset(handle);
     if (code != SQLITE_OK) fail();
     // Other programs may be writing to the same file.
@@ -120,7 +138,7 @@ void Transaction::commit() {
 }
 
 Attached::Attached(Database& database, const std::string& file) : database_(database) {
-    Statement(database, "ATTACH ? AS other").bind(1, uriOf(file)).step();
+    Statement(database, "ATTACH ? AS other").bind(1, uriOf(file, isReadOnly(file))).step();
 }
 
 Attached::~Attached() {

@@ -308,6 +308,22 @@ TEST_P(CompressedJointBankTest, EverythingCanComeBack) {
     }
 }
 
+TEST_P(CompressedJointBankTest, ALandmarkAskedForTwiceComesOnce) {
+    Twins pair = twins(22);
+    for (int i = 0; i < 8; ++i) pair.augment(BlockKind::landmark);
+    pair.update();
+    pair.commit(pair.some(1.0, true));
+    std::vector<BlockId> twice = pair.some(0.6, false);
+    ASSERT_FALSE(twice.empty());
+    twice.insert(twice.begin(), twice.back());
+    pair.activate(twice);
+    pair.update();
+    pair.commit(pair.some(1.0, true));
+    EXPECT_EQ(pair.compressed.map().size(), 8);
+    EXPECT_EQ(pair.compressed.dimension(), pair.dense.dimension());
+    ASSERT_TRUE(pair.agree(1e-11));
+}
+
 TEST_P(CompressedJointBankTest, WhatIsPutAwayCanBeRemoved) {
     // One by one, until nothing is left away; then the bank goes on.
     Twins pair = twins(21);

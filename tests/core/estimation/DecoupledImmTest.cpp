@@ -43,7 +43,9 @@ TEST(DecoupledImmTest, RobotAndMapAreThoseOfTheLandmarksAlone) {
             JointFilterParameters parameters =
                 parametersOf("cv:cv:0.3, ca:ca:2", ImmForm::decoupled, consistency);
             parameters.engine.kind = engine;
-            JointFilter decoupled(parameters, {}), slam(parameters, {});
+            JointFilterParameters joint = parameters;
+            joint.imm.form = ImmForm::exact;
+            JointFilter decoupled(parameters, {}), slam(joint, {});
             ImmScene scene;
             for (JointFilter* filter : {&decoupled, &slam}) filter->start({}, scene.start());
             bool any_mover = false;

@@ -1,5 +1,5 @@
-// The covariance stays positive semi-definite where rounding is worst: a huge prior against precise measurements,
-// thousands of times.
+// The covariance stays positive semi-definite where rounding is worst: a huge prior against precise
+// measurements, thousands of times.
 #include <gtest/gtest.h>
 
 #include "slamot/core/estimation/Definiteness.h"
@@ -12,8 +12,8 @@ namespace {
 class DefinitenessOfLongRuns : public testing::TestWithParam<Consistency> {};
 
 TEST_P(DefinitenessOfLongRuns, HugePriorsAndPreciseMeasurements) {
-    // Variances of prior and measurement 1e14 apart, near the 1e16 of doubles. The landmark starts at first sight, so
-    // that it is uncertain with the robot, as in any run, and not against it.
+    // Variances of prior and measurement 1e14 apart, near the 1e16 of doubles. The landmark starts at first
+    // sight, so that it is uncertain with the robot, as in any run, and not against it.
     const Matrix3 prior = Vector3(1e6, 1e6, 1.0).asDiagonal();
     DenseJointBank bank(Vector3::Zero(), prior, GetParam());
     JointMode& state = bank.mode(0);
@@ -29,12 +29,13 @@ TEST_P(DefinitenessOfLongRuns, HugePriorsAndPreciseMeasurements) {
         detection.range = rel.norm();
         detection.bearing = std::atan2(rel.y(), rel.x());
         state.update({linearise(state, landmark, detection, {}, GetParam()).measurement});
-        ASSERT_TRUE(isPositiveSemidefinite(state.jointCovariance({robot_block, landmark}), 1e-9)) << "update " << i;
+        ASSERT_TRUE(isPositiveSemidefinite(state.jointCovariance({robot_block, landmark}), 1e-9))
+            << "update " << i;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cores, DefinitenessOfLongRuns, testing::Values(Consistency::classic, Consistency::invariant),
-                         [](const auto& core) {
+INSTANTIATE_TEST_SUITE_P(Cores, DefinitenessOfLongRuns,
+                         testing::Values(Consistency::classic, Consistency::invariant), [](const auto& core) {
                              return std::string(core.param == Consistency::classic ? "classic" : "invariant");
                          });
 

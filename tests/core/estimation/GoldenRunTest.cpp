@@ -182,7 +182,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(GoldenCase{Consistency::classic, "classic", JointEngine::Kind::dense, "dense"},
                     GoldenCase{Consistency::invariant, "invariant", JointEngine::Kind::dense, "dense"},
                     GoldenCase{Consistency::classic, "classic", JointEngine::Kind::compressed, "compressed"},
-                    GoldenCase{Consistency::invariant, "invariant", JointEngine::Kind::compressed, "compressed"}),
+                    GoldenCase{Consistency::invariant, "invariant", JointEngine::Kind::compressed,
+                               "compressed"}),
     [](const auto& each) { return std::string(each.param.trace) + "_" + each.param.engine_name; });
 
 TEST(GoldenImm, MatchesTheTraceWhateverTheOrderOfTheModes) {

@@ -84,7 +84,8 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsAreThoseOfTheFormula) {
 TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
     // Sensor at the robot, 2 m away, 0.2 m of uncertainty: mean and variance of the true range by sampling.
     DenseJointBank bank({0, 0, 0}, Vector3(0.02, 0.02, 0).asDiagonal(), Consistency::classic);
-    bank.augment(BlockKind::landmark, {Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3), 0.02 * Matrix2::Identity()});
+    bank.augment(BlockKind::landmark,
+                 {Vector2(2, 0), Eigen::MatrixXd::Zero(2, 3), 0.02 * Matrix2::Identity()});
     const JointView& state = bank.mode(0);
     const auto out = linearise(state, 1, detectionOf(2, 0), {}, Consistency::invariant);
 
@@ -112,7 +113,8 @@ TEST(RangeBearingUpdateTest, SecondOrderTermsMatchSampledRanges) {
 TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
     // The landmark lies straight behind, at +pi; seen at -pi + 0.1 the innovation is 0.1 and not 0.1 - 2 pi.
     DenseJointBank bank({0, 0, 0}, 0.01 * Matrix3::Identity(), Consistency::classic);
-    bank.augment(BlockKind::landmark, {Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3), 0.01 * Matrix2::Identity()});
+    bank.augment(BlockKind::landmark,
+                 {Vector2(-5, 0), Eigen::MatrixXd::Zero(2, 3), 0.01 * Matrix2::Identity()});
     const JointView& state = bank.mode(0);
     for (const double offset : {0.1, -0.1}) {
         const double bearing = wrapAngle(pi + offset);

@@ -39,5 +39,16 @@ TEST(SquareRootTest, LeavesOutWhatIsKnownExactly) {
     EXPECT_TRUE(near(root.root * w, columns, 1e-12));
 }
 
+TEST(SquareRootTest, ASmallRestInTheMiddleTakesNothingWithIt) {
+    // x2 = x1 + 3e-8 x3: taken in this order, x2 has next to nothing left when x1 is known, and that little
+    // is x3.
+    Eigen::Matrix3d A;
+    A << 1, 0, 0, 1, 0, 3e-8, 0, 0, 1;
+    const Eigen::Matrix3d P = A * A.transpose();
+    const SquareRoot root = squareRoot(P);
+    EXPECT_TRUE(near(root.root * root.root.transpose(), P, 1e-14));
+    EXPECT_EQ(root.unknown().sum(), 2);
+}
+
 }  // namespace
 }  // namespace slamot

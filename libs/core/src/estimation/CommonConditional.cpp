@@ -1,6 +1,6 @@
 #include "slamot/core/estimation/CommonConditional.h"
 
-#include <Eigen/Eigenvalues>
+#include "slamot/core/estimation/SquareRoot.h"
 
 namespace slamot {
 namespace {
@@ -17,18 +17,10 @@ std::vector<int> coordinates(const BlockLayout& layout, bool put_away) {
 
 Eigen::MatrixXd regression(const Eigen::Ref<const Eigen::MatrixXd>& P_aa,
                            const Eigen::Ref<const Eigen::MatrixXd>& P_ab) {
-    // Units differ between components: the eigenvalues to be judged are those of the correlations.
-    const Eigen::VectorXd scale = P_aa.diagonal().unaryExpr(
-        [](double variance) { return variance > 0 ? 1.0 / std::sqrt(variance) : 0.0; });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * P_aa *
-                                                                scale.asDiagonal());
-    const double floor = 1e-14 * static_cast<double>(P_aa.rows()) * solver.eigenvalues().maxCoeff();
-    const Eigen::VectorXd inverse =
-        solver.eigenvalues().unaryExpr([floor](double value) { return value > floor ? 1.0 / value : 0.0; });
-    // From right to left: rounding then stays in the directions of small variance, where it does no harm.
-    // P_aa^+ by itself spreads it over all, times the condition of P_aa.
-    const Eigen::MatrixXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * P_ab);
-    return scale.asDiagonal() * (solver.eigenvectors() * (inverse.asDiagonal() * along));
+    // From right to left: rounding then stays in the directions of small variance, where it does no harm. The
+    // inverse by itself spreads it over all, times the condition of P_aa.
+    const Eigen::MatrixXd whitener = squareRoot(P_aa).whitener;
+    return whitener.transpose() * (whitener * P_ab);
 }
 
 Eigen::MatrixXd pseudoInverse(const Eigen::Ref<const Eigen::MatrixXd>& P) {

@@ -82,6 +82,9 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
     for (const BlockId id : landmarks)
         if (map_.contains(id)) away.push_back(id);
     if (away.empty()) return;
+    // Two sensors may have measured one landmark at the same time.
+    std::sort(away.begin(), away.end());
+    away.erase(std::unique(away.begin(), away.end()), away.end());
     ++activations_;
 
     // c = c0 + B_c^t beta + e_c. What the base's rows proper, U, do not say of the covariance of e_c with

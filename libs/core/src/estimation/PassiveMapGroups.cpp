@@ -94,41 +94,38 @@ void PassiveMap::regroup(const std::vector<char>& far) {
     next.parts.resize(tiles_.size());
     next.W = group_.W;
     if (next.W.rows() == 0) next.W.resize(q_, 0);
-    int joining = 0;
+    std::vector<int> staying, joining;  // far tiles
+    int joining_columns = 0;
     for (int t = 0; t < tileCount(); ++t) {
         if (!used(t)) continue;
         Tile& own = tile(t);
         const bool was_far = own.far;
         own.far = far[static_cast<std::size_t>(t)];
+        next.part(t).far = own.far;
         if (was_far) own.mean.noalias() += group_.part(t).V.transpose() * group_.shift;
         if (was_far && !own.far) own.X = product(group_.W, group_.part(t).V);
-        next.part(t).far = own.far;
-        if (was_far && own.far) next.part(t).V = group_.part(t).V;
-        if (!was_far && own.far) joining += own.width();
-        if (!was_far && own.far) next.part(t).V.resize(next.rank(), 0);
+        if (!own.far) continue;
+        next.part(t).V = was_far ? group_.part(t).V : Eigen::MatrixXd(next.rank(), 0);
+        (was_far ? staying : joining).push_back(t);
+        joining_columns += was_far ? 0 : own.width();
     }
     next.orthonormalise(negligibleLength());
 
     // [W X] of those that stay and those that join = W' K, in few rows of K; V' = K [V 0; 0 I].
-    Eigen::MatrixXd M(q_, next.rank() + joining);
+    Eigen::MatrixXd M(q_, next.rank() + joining_columns);
     M.leftCols(next.rank()) = next.W;
-    joining = next.rank();
-    for (int t = 0; t < tileCount(); ++t) {
-        if (!used(t) || !tile(t).far || tile(t).X.size() == 0) continue;
-        M.middleCols(joining, tile(t).width()) = tile(t).X;
-        joining += tile(t).width();
+    int column = next.rank();
+    for (const int t : joining) {
+        M.middleCols(column, tile(t).width()) = tile(t).X;
+        column += tile(t).width();
     }
     const Eigen::MatrixXd K = turningBasis(M, negligibleLength(), static_cast<int>(M.cols()));
-    joining = next.rank();
-    for (int t = 0; t < tileCount(); ++t) {
-        if (!used(t) || !tile(t).far) continue;
-        if (tile(t).X.size() == 0) {
-            next.part(t).V = product(K.leftCols(next.rank()), next.part(t).V);
-        } else {
-            next.part(t).V = K.middleCols(joining, tile(t).width());
-            joining += tile(t).width();
-            tile(t).X.resize(0, 0);
-        }
+    for (const int t : staying) next.part(t).V = product(K.leftCols(next.rank()), next.part(t).V);
+    column = next.rank();
+    for (const int t : joining) {
+        next.part(t).V = K.middleCols(column, tile(t).width());
+        column += tile(t).width();
+        tile(t).X.resize(0, 0);
     }
     next.W = product(M, K.transpose());
     next.zeta = Eigen::MatrixXd::Zero(next.rank(), next.rank());

@@ -9,12 +9,16 @@
 
 namespace slamot::study {
 
+class OneRuns;
+
 /// Rows with the study they belong to and what it wants made of them.
 struct Findings {
     const StudyFile& study;
     const Analysis& analysis;
     const std::vector<Row>& rows;
     const Plan* plan = nullptr;  ///< what there should be; null where that is not known
+    /// Of that plan: makes what figures of one run show; without it they have no such run.
+    OneRuns* one_runs = nullptr;
 };
 
 struct Column {
