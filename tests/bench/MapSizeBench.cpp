@@ -13,6 +13,7 @@
 #include "MapSizeReport.h"
 #include "slamot/core/Version.h"
 #include "slamot/core/config/Config.h"
+#include "slamot/rawlog/PartFile.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/study/Page.h"
 
@@ -101,14 +102,20 @@ void drawSvg(const Results& results, const fs::path& stem) {
     report::writeFigure(mapSizeFigure(results), stem, {false, true, false});
 }
 
+void writeFile(const std::string& name, const std::string& text) {
+    PartFile file(name);
+    file.write(text);
+    file.close();
+}
+
 void write(const Results& results, const std::string& stamp, const fs::path& folder) {
     std::string text;
     for (const auto& [mark, content] : contents(results, stamp, "map_size"))
         text += fmt::format("`{}`\n\n{}\n", mark, content);
-    study::writePage((folder / "map_size.md").string(), text);
-    study::writePage((folder / "map_size.csv").string(), toCsv(allTimesTable(results)));
-    study::writePage((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
-    study::writePage((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
+    writeFile((folder / "map_size.md").string(), text);
+    writeFile((folder / "map_size.csv").string(), toCsv(allTimesTable(results)));
+    writeFile((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
+    writeFile((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
     drawSvg(results, folder / "map_size");
 }
 
@@ -134,6 +141,7 @@ void run(Options options, const std::string& command) {
         throw ConfigError(fmt::format("--quick leaves no size, expected one of at most {}", kf_slam_to));
     std::sort(options.sizes.begin(), options.sizes.end());
     fs::create_directories(options.out);
+    if (!options.page.empty()) options.page = fs::canonical(options.page).string();
     const OtherLoad others;
     const Results results = measureAll(options);
     const study::Provenance here = study::provenanceHere(command);

@@ -214,9 +214,7 @@ void writePage(const std::string& page, const std::string& text) {
 
 void fillPage(const std::string& page, const Findings& findings, const Provenance& provenance,
               const CheckReport* checks) {
-    std::error_code missing;
-    const fs::path target = fs::canonical(page, missing);
-    Filler filler(missing ? page : target.string(), findings, provenance, checks);
+    Filler filler(fs::weakly_canonical(page), findings, provenance, checks);
     const std::string text = filledText(page, "study", findings.study.name,
                                         [&](const auto& words) { return filler.content(words); });
     filler.draw();

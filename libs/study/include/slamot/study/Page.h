@@ -45,7 +45,7 @@ using MarkContent = std::function<std::string(const std::vector<std::string>& wo
 /// replaced. Throws ConfigError as fillPage does.
 std::string filledText(const std::string& page, const std::string& keyword, const std::string& name,
                        const MarkContent& content);
-/// Replaces a page once all of it is written.
+/// Replaces a page once all of it is written; of a link, the page it leads to. It keeps its permissions.
 void writePage(const std::string& page, const std::string& text);
 
 }  // namespace slamot::study
