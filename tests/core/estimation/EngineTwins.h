@@ -82,14 +82,7 @@ class FollowingBank : public DenseJointBank {
 class ModalRun {
   public:
     ModalRun(const JointFilterParameters& p, std::unique_ptr<JointBank> bank) : models_(modelsOf(p.imm)) {
-        const auto settings =
-            std::make_shared<const ModalSettings>(ModalSettings{RobotMotionParameters{},
-                                                                {p.outliers, p.gate_probability},
-                                                                p.target_velocity_std,
-                                                                p.target_acceleration_std,
-                                                                chainOf(p.imm),
-                                                                initialProbabilities(p.imm),
-                                                                p.imm.likelihood});
+        const auto settings = settingsFrom(p, RobotMotionParameters{});
         auto exact = std::make_unique<JointImm>(settings, std::move(bank));
         if (p.imm.form == ImmForm::scalable)
             belief_ = std::make_unique<BankedImm>(settings, std::move(*exact));

@@ -61,23 +61,10 @@ void BankedImm::predict(const OdometryIncrement& odometry, const std::vector<Tar
 void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                        std::vector<Innovation>& innovations) {
     joint_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, certain_);
-    updateByLandmarks(seen, known, innovations);
+    update_by_landmarks_(joint_->mode(0), joint_->consistency(), settings().gate, seen, known.landmarks,
+                         innovations);
     updateByTargets(seen, known, innovations);
     for (auto& [target, bank] : targets_) bank.synchronise(marginal(target));
-}
-
-void BankedImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
-                                  std::vector<Innovation>& innovations) {
-    batch_.clear();
-    for (const auto& sight : known.landmarks) {
-        const RangeBearingDetection& detection = seen.detections[sight.detection];
-        linear_.assign(1, linearise(joint_->mode(0), sight.block, detection,
-                                    seen.sensors[detection.sensor].pose, joint_->consistency()));
-        Innovation& innovation = innovations[sight.detection];
-        linear_.front().measurement.R += settings().gate.judge(certain_, linear_, detection, innovation);
-        if (innovation.outcome != Outcome::rejected) batch_.push_back(linear_.front().measurement);
-    }
-    joint_->mode(0).update(batch_);
 }
 
 void BankedImm::updateByTargets(const RangeBearingSet& seen, const KnownObjects& known,

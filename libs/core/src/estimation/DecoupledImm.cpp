@@ -34,26 +34,12 @@ void DecoupledImm::predict(const OdometryIncrement& odometry, const std::vector<
 
 void DecoupledImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                           std::vector<Innovation>& innovations) {
-    updateByLandmarks(seen, known, innovations);
-    for (const auto& sight : known.targets) updateTarget(seen, sight, innovations[sight.detection]);
-}
-
-void DecoupledImm::updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
-                                     std::vector<Innovation>& innovations) {
     std::vector<BlockId> landmarks;
     for (const auto& sight : known.landmarks) landmarks.push_back(sight.block);
     joint_->attend({Pose2::fromVector(mean(robot_block)), seen, landmarks}, certain_);
-
-    batch_.clear();
-    for (const auto& sight : known.landmarks) {
-        const RangeBearingDetection& detection = seen.detections[sight.detection];
-        linear_.assign(1, linearise(joint_->mode(0), sight.block, detection,
-                                    seen.sensors[detection.sensor].pose, joint_->consistency()));
-        Innovation& innovation = innovations[sight.detection];
-        linear_.front().measurement.R += settings().gate.judge(certain_, linear_, detection, innovation);
-        if (innovation.outcome != Outcome::rejected) batch_.push_back(linear_.front().measurement);
-    }
-    joint_->mode(0).update(batch_);
+    update_by_landmarks_(joint_->mode(0), joint_->consistency(), settings().gate, seen, known.landmarks,
+                         innovations);
+    for (const auto& sight : known.targets) updateTarget(seen, sight, innovations[sight.detection]);
 }
 
 void DecoupledImm::updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight,

@@ -4,7 +4,6 @@
 #include "slamot/core/estimation/DecoupledImm.h"
 
 namespace slamot {
-namespace {
 
 std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p,
                                                   const RobotMotionParameters& motion) {
@@ -16,8 +15,6 @@ std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p
                                                                initialProbabilities(p.imm),
                                                                p.imm.likelihood});
 }
-
-}  // namespace
 
 JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMotionParameters& motion)
     : parameters_(parameters),

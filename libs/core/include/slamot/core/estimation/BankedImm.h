@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "slamot/core/estimation/JointImm.h"
+#include "slamot/core/estimation/LandmarkUpdate.h"
 #include "slamot/core/estimation/TargetBank.h"
 
 namespace slamot {
@@ -35,8 +36,6 @@ class BankedImm : public ModalState {
   private:
     TargetGaussian marginal(BlockId target) const;
     std::size_t indexOf(BlockId target) const;
-    void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
-                           std::vector<Innovation>& innovations);
     void updateByTargets(const RangeBearingSet& seen, const KnownObjects& known,
                          std::vector<Innovation>& innovations);
     /// A mover's bank takes its detection in; the joint state's part joins the batch.
@@ -47,7 +46,8 @@ class BankedImm : public ModalState {
     std::unique_ptr<JointBank> joint_;
     std::vector<std::pair<BlockId, TargetBank>> targets_;
     Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
-    std::vector<LinearMeasurement> batch_;                ///< kept for its capacity
+    LandmarkUpdate update_by_landmarks_;
+    std::vector<LinearMeasurement> batch_;  ///< of movers; kept for its capacity
     std::vector<Linearisation> linear_;
 };
 

@@ -4,6 +4,7 @@
 // with robot and map: no correlation is kept, and no mover corrects the robot.
 #include <utility>
 
+#include "slamot/core/estimation/LandmarkUpdate.h"
 #include "slamot/core/estimation/ModalState.h"
 #include "slamot/core/estimation/TargetBank.h"
 
@@ -29,8 +30,6 @@ class DecoupledImm : public ModalState {
     void removeTarget(BlockId target) override;
 
   private:
-    void updateByLandmarks(const RangeBearingSet& seen, const KnownObjects& known,
-                           std::vector<Innovation>& innovations);
     void updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
     std::size_t indexOf(BlockId target) const;
     const TargetBank& trackerOf(BlockId target) const { return targets_[indexOf(target)].second; }
@@ -39,8 +38,8 @@ class DecoupledImm : public ModalState {
     std::vector<std::pair<BlockId, TargetBank>> targets_;
     BlockId last_target_;
     Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
-    std::vector<LinearMeasurement> batch_;                ///< kept for its capacity
-    std::vector<Linearisation> linear_;
+    LandmarkUpdate update_by_landmarks_;
+    std::vector<Linearisation> linear_;  ///< kept for its capacity
 };
 
 }  // namespace slamot

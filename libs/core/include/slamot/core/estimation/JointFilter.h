@@ -49,6 +49,10 @@ std::vector<ParameterTable> describe(JointFilterParameters& parameters, const st
 std::vector<ParameterTable> describeImm(JointFilterParameters& parameters, const std::string& name,
                                         const std::string& about);
 
+/// What of it does not change during a run.
+std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& parameters,
+                                                  const RobotMotionParameters& motion);
+
 class JointFilter {
   public:
     /// Throws std::invalid_argument with one sentence when `parameters.imm` does not fit together.
