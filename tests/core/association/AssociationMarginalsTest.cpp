@@ -1,10 +1,9 @@
-#include "slamot/core/association/AssociationMarginals.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "AssociationProblems.h"
+#include "slamot/core/association/AssociationMarginals.h"
 
 namespace slamot {
 namespace {
@@ -27,8 +26,10 @@ AssociationMarginals bruteForce(const AssociationProblem& problem, const Detecti
     out.none.assign(static_cast<std::size_t>(problem.detections()), 1);
     out.missed.assign(static_cast<std::size_t>(problem.objects()), 1);
     for (int c = 0; c < problem.candidates(); ++c) {
-        out.none[static_cast<std::size_t>(problem.candidate(c).detection)] -= out.pair[static_cast<std::size_t>(c)];
-        out.missed[static_cast<std::size_t>(problem.candidate(c).object)] -= out.pair[static_cast<std::size_t>(c)];
+        out.none[static_cast<std::size_t>(problem.candidate(c).detection)] -=
+            out.pair[static_cast<std::size_t>(c)];
+        out.missed[static_cast<std::size_t>(problem.candidate(c).object)] -=
+            out.pair[static_cast<std::size_t>(c)];
     }
     return out;
 }
@@ -48,7 +49,8 @@ double largestDifference(const AssociationMarginals& a, const AssociationMargina
     return largest;
 }
 
-/// A problem whose pairs have given odds against clutter and miss: P_D N / (c (1 - P_D)) with P_D 0.5 and c 1.
+/// A problem whose pairs have given odds against clutter and miss: P_D N / (c (1 - P_D)) with P_D 0.5 and
+/// c 1.
 struct Odds {
     AssociationProblem problem;
     DetectionModel model;
@@ -82,8 +84,9 @@ TEST(AssociationMarginals, OnePairByHand) {
 }
 
 TEST(AssociationMarginals, TwoByTwoByHand) {
-    // Odds 1 everywhere: 1 + 4 + 2 hypotheses of equal weight, each pair in 1 + 1 of them. Belief propagation's
-    // fixed point is mu = nu = 1 / (1 + nu), the golden section, so a pair has mu nu / (1 + mu nu).
+    // Odds 1 everywhere: 1 + 4 + 2 hypotheses of equal weight, each pair in 1 + 1 of them. Belief
+    // propagation's fixed point is mu = nu = 1 / (1 + nu), the golden section, so a pair has mu nu / (1 + mu
+    // nu).
     const Odds odds = withOdds(2, 2, {{0, 0, 1.0}, {0, 1, 1.0}, {1, 0, 1.0}, {1, 1, 1.0}});
     for (const double p : associationMarginals(odds.problem, odds.model, unlimited).pair)
         EXPECT_NEAR(p, 2.0 / 7.0, 1e-15);
@@ -97,7 +100,8 @@ TEST(AssociationMarginals, BeliefPropagationIsExactWithoutCycles) {
     RandomStream random(32, RandomPurpose::test);
     int approximated = 0;
     for (int trial = 0; trial < 200; ++trial) {
-        // A tree over up to 6 detections and 6 objects: each new node hangs on an earlier one of the other kind.
+        // A tree over up to 6 detections and 6 objects: each new node hangs on an earlier one of the other
+        // kind.
         std::vector<std::pair<int, int>> edges{{0, 0}};
         int detections = 1, objects = 1;
         for (int n = 0; n < 10; ++n) {
@@ -119,13 +123,13 @@ TEST(AssociationMarginals, BeliefPropagationIsExactWithoutCycles) {
     EXPECT_EQ(approximated, 200);
 }
 
-/// What both the exact marginals and the fixed point of belief propagation must lie between. The probability that
-/// v stays alone in G is p_v(G) = 1 / (1 + sum_w psi_vw p_w(G - v)), for every v and G: unrolled, a tree of the
-/// self-avoiding walks from v (Godsil, Matchings and walks in graphs, J. Graph Theory 5, 1981; Bayati et al., Simple
-/// deterministic approximation algorithms for counting matchings, STOC 2007). Belief propagation evaluates the same
-/// formula on the tree of all walks without an immediate return. p falls with every further branch, so the larger
-/// tree with the upper ends below gives a lower end for both, the smaller one an upper end. Ends below the last
-/// level are 0 and 1.
+/// What both the exact marginals and the fixed point of belief propagation must lie between. The probability
+/// that v stays alone in G is p_v(G) = 1 / (1 + sum_w psi_vw p_w(G - v)), for every v and G: unrolled, a tree
+/// of the self-avoiding walks from v (Godsil, Matchings and walks in graphs, J. Graph Theory 5, 1981; Bayati
+/// et al., Simple deterministic approximation algorithms for counting matchings, STOC 2007). Belief
+/// propagation evaluates the same formula on the tree of all walks without an immediate return. p falls with
+/// every further branch, so the larger tree with the upper ends below gives a lower end for both, the smaller
+/// one an upper end. Ends below the last level are 0 and 1.
 class WalkBounds {
   public:
     struct Range {
@@ -188,7 +192,8 @@ TEST(AssociationMarginals, BeliefPropagationStaysWithinTheBoundsOfWalks) {
             ++values;
         };
         for (int d = 0; d < 5; ++d)
-            hold(bounds.alone(d, 8), exact.none[static_cast<std::size_t>(d)], found.none[static_cast<std::size_t>(d)]);
+            hold(bounds.alone(d, 8), exact.none[static_cast<std::size_t>(d)],
+                 found.none[static_cast<std::size_t>(d)]);
         for (int o = 0; o < 5; ++o)
             hold(bounds.alone(5 + o, 8), exact.missed[static_cast<std::size_t>(o)],
                  found.missed[static_cast<std::size_t>(o)]);
@@ -251,7 +256,8 @@ TEST(AssociationMarginals, AboveTheBudgetItApproximates) {
         total += weight;
         pairs += k * weight;
     }
-    for (int c = 0; c < 64; ++c) EXPECT_NEAR(exact.pair[static_cast<std::size_t>(c)], pairs / total / 64, 1e-14);
+    for (int c = 0; c < 64; ++c)
+        EXPECT_NEAR(exact.pair[static_cast<std::size_t>(c)], pairs / total / 64, 1e-14);
 }
 
 TEST(AssociationMarginals, ExtremeOddsStayFinite) {
@@ -259,8 +265,7 @@ TEST(AssociationMarginals, ExtremeOddsStayFinite) {
     std::vector<Candidate> candidates{{0, 0, 1, 400}, {1, 0, 1, 400}, {2, 0, 1, 400}};
     const AssociationProblem problem(3, 2, candidates);
     for (const int budget : {unlimited, loopy}) {
-        const AssociationMarginals found =
-            associationMarginals(problem, {{0.5, 0.5}, {1, 1, 1}, 1}, budget);
+        const AssociationMarginals found = associationMarginals(problem, {{0.5, 0.5}, {1, 1, 1}, 1}, budget);
         for (const double p : found.pair) EXPECT_NEAR(p, 1.0 / 3.0, 1e-12);
         for (const double p : found.none) EXPECT_NEAR(p, 2.0 / 3.0, 1e-12);
         EXPECT_NEAR(found.missed[0], 0, 1e-12);

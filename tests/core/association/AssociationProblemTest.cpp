@@ -1,11 +1,10 @@
-#include "slamot/core/association/AssociationProblem.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
+#include "slamot/core/association/AssociationProblem.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -27,13 +26,10 @@ TEST(AssociationProblem, FindsTheCandidatesOfADetection) {
 
 TEST(AssociationProblem, RefusesWhatIsOutOfOrderOutOfRangeOrNotFinite) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const std::vector<std::vector<Candidate>> bad{{{1, 0, 1, 1}, {0, 0, 1, 1}},
-                                                  {{0, 0, 1, 1}, {0, 0, 1, 1}},
-                                                  {{0, 1, 1, 1}, {0, 0, 1, 1}},
-                                                  {{0, 0, 1, 1}, {2, 0, 1, 1}},
-                                                  {{0, 0, 1, 1}, {0, 2, 1, 1}},
-                                                  {{0, 0, 1, 1}, {0, 1, nan, 1}},
-                                                  {{0, 0, 1, 1}, {0, 1, 1, -1 / 0.0}}};
+    const std::vector<std::vector<Candidate>> bad{
+        {{1, 0, 1, 1}, {0, 0, 1, 1}},       {{0, 0, 1, 1}, {0, 0, 1, 1}}, {{0, 1, 1, 1}, {0, 0, 1, 1}},
+        {{0, 0, 1, 1}, {2, 0, 1, 1}},       {{0, 0, 1, 1}, {0, 2, 1, 1}}, {{0, 0, 1, 1}, {0, 1, nan, 1}},
+        {{0, 0, 1, 1}, {0, 1, 1, -1 / 0.0}}};
     for (const auto& candidates : bad) {
         const auto make = [&candidates] { AssociationProblem(2, 2, candidates); };
         EXPECT_THAT(test::messageOf<std::invalid_argument>(make), HasSubstr("candidate"));

@@ -28,7 +28,8 @@ struct MatrixInnovations : JointInnovations {
             const int a = candidates[static_cast<std::size_t>(i)];
             part.segment<2>(2 * i) = nu.segment<2>(2 * a);
             for (Eigen::Index j = 0; j < n; ++j)
-                P.block<2, 2>(2 * i, 2 * j) = S.block<2, 2>(2 * a, 2 * candidates[static_cast<std::size_t>(j)]);
+                P.block<2, 2>(2 * i, 2 * j) =
+                    S.block<2, 2>(2 * a, 2 * candidates[static_cast<std::size_t>(j)]);
         }
         return part.dot(P.fullPivLu().solve(part));
     }
@@ -55,7 +56,8 @@ inline MatrixInnovations randomInnovations(RandomStream& random, int candidates,
 
 inline DetectionModel randomModel(RandomStream& random, const AssociationProblem& problem) {
     DetectionModel model;
-    for (int o = 0; o < problem.objects(); ++o) model.detection_probability.push_back(random.uniform(0.3, 0.98));
+    for (int o = 0; o < problem.objects(); ++o)
+        model.detection_probability.push_back(random.uniform(0.3, 0.98));
     for (int d = 0; d < problem.detections(); ++d) model.clutter_density.push_back(random.uniform(0.01, 0.5));
     model.gate_probability = 0.99;
     return model;
@@ -63,14 +65,16 @@ inline DetectionModel randomModel(RandomStream& random, const AssociationProblem
 
 /// Calls `visit` with the candidates (in the order of `detections`) of every pairing there is.
 template <class Visit>
-void forEachPairing(const AssociationProblem& problem, const std::vector<int>& detections, const Visit& visit) {
+void forEachPairing(const AssociationProblem& problem, const std::vector<int>& detections,
+                    const Visit& visit) {
     std::vector<int> chosen;
     const auto decide = [&](const auto& self, std::size_t place) -> void {
         if (place == detections.size()) return visit(chosen);
         self(self, place + 1);
         for (int c = problem.first(detections[place]); c < problem.first(detections[place] + 1); ++c) {
             bool free = true;
-            for (const int other : chosen) free = free && problem.candidate(other).object != problem.candidate(c).object;
+            for (const int other : chosen)
+                free = free && problem.candidate(other).object != problem.candidate(c).object;
             if (!free) continue;
             chosen.push_back(c);
             self(self, place + 1);

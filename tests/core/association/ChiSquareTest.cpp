@@ -1,8 +1,8 @@
-#include "slamot/core/association/ChiSquare.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "slamot/core/association/ChiSquare.h"
 
 namespace slamot {
 namespace {

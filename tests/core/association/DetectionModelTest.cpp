@@ -1,11 +1,10 @@
-#include "slamot/core/association/DetectionModel.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "slamot/core/association/DetectionModel.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -22,7 +21,8 @@ TEST(DetectionModel, ClutterIsUniformInRangeAndBearing) {
     sensor.max_range = 0;
     sensor.min_range = 0;
     sensor.label = "radar";
-    EXPECT_THAT(test::messageOf<std::invalid_argument>([&] { clutterDensity(5, sensor); }), HasSubstr("radar"));
+    EXPECT_THAT(test::messageOf<std::invalid_argument>([&] { clutterDensity(5, sensor); }),
+                HasSubstr("radar"));
 }
 
 TEST(DetectionModel, RatioOfAPairByHand) {

@@ -1,12 +1,10 @@
-#include "slamot/core/association/GatedPairs.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 #include "PairScene.h"
+#include "slamot/core/association/GatedPairs.h"
 #include "slamot/core/random/RandomStream.h"
 #include "support/Expect.h"
 
@@ -48,8 +46,10 @@ TEST(GatedPairs, AreAllPairsWithinTheGate) {
                     // log N by S's eigenvalues instead of its determinant
                     const Vector2 eigenvalues = pair.S.selfadjointView<Eigen::Lower>().eigenvalues();
                     ASSERT_NEAR(candidate.log_likelihood,
-                                -0.5 * pair.nis - 0.5 * eigenvalues.array().log().sum() - std::log(2 * pi), 1e-9);
-                    ASSERT_EQ(found.measurements[static_cast<std::size_t>(next)].residual, pair.measurement.residual);
+                                -0.5 * pair.nis - 0.5 * eigenvalues.array().log().sum() - std::log(2 * pi),
+                                1e-9);
+                    ASSERT_EQ(found.measurements[static_cast<std::size_t>(next)].residual,
+                              pair.measurement.residual);
                     ++next;
                 }
             }
@@ -78,8 +78,8 @@ TEST(GatedPairs, OnlyTheDetectionsAskedFor) {
 
 TEST(GatedPairs, EachDetectionFromItsOwnSensor) {
     // One landmark straight behind; a second sensor that looks backwards sees it at bearing 0.
-    test::PairScene scene = test::pairScene(1.0, {{-5, 0}}, {{5, pi}, {5, 0}, {5, 0}, {5, pi}}, {0.1, 0.1, 0.02},
-                                            0.1, Consistency::classic);
+    test::PairScene scene = test::pairScene(1.0, {{-5, 0}}, {{5, pi}, {5, 0}, {5, 0}, {5, pi}},
+                                            {0.1, 0.1, 0.02}, 0.1, Consistency::classic);
     scene.seen.sensors.emplace_back();
     scene.seen.sensors[1].pose = {0, 0, pi};
     scene.seen.detections[2].sensor = scene.seen.detections[3].sensor = 1;
@@ -93,8 +93,9 @@ TEST(GatedPairs, EachDetectionFromItsOwnSensor) {
 
 TEST(GatedPairs, AcrossTheTurnOfTheBearing) {
     // Seen 0.01 rad on either side of straight behind.
-    const test::PairScene scene = test::pairScene(0.0, {{-5, -0.05}, {-5, 0.05}}, {{5, pi - 0.01}, {5, -pi + 0.01}},
-                                                  {0.1, 0.1, 0.02}, 0.1, Consistency::classic);
+    const test::PairScene scene =
+        test::pairScene(0.0, {{-5, -0.05}, {-5, 0.05}}, {{5, pi - 0.01}, {5, -pi + 0.01}}, {0.1, 0.1, 0.02},
+                        0.1, Consistency::classic);
     PairGates gates(0.99);
     EXPECT_EQ(scene.gated(gates).problem.candidates(), 4);
 }

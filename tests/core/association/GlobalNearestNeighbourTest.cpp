@@ -1,9 +1,8 @@
-#include "slamot/core/association/GlobalNearestNeighbour.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "AssociationProblems.h"
+#include "slamot/core/association/GlobalNearestNeighbour.h"
 #include "slamot/core/association/NearestNeighbour.h"
 
 namespace slamot {
@@ -12,14 +11,16 @@ namespace {
 using testing::ElementsAre;
 
 /// log of P_D N for pairs, c for detections alone, 1 - P_D P_G for objects missed: the whole batch.
-double logOfBatch(const AssociationProblem& problem, const DetectionModel& model, const std::vector<int>& pairs) {
+double logOfBatch(const AssociationProblem& problem, const DetectionModel& model,
+                  const std::vector<int>& pairs) {
     double log = 0;
     std::vector<char> used(static_cast<std::size_t>(problem.detections()), 0),
         seen(static_cast<std::size_t>(problem.objects()), 0);
     for (const int c : pairs) {
         const Candidate& pair = problem.candidate(c);
         used[static_cast<std::size_t>(pair.detection)] = seen[static_cast<std::size_t>(pair.object)] = 1;
-        log += std::log(model.detection_probability[static_cast<std::size_t>(pair.object)]) + pair.log_likelihood;
+        log += std::log(model.detection_probability[static_cast<std::size_t>(pair.object)]) +
+               pair.log_likelihood;
     }
     for (std::size_t d = 0; d < used.size(); ++d) log += used[d] ? 0 : std::log(model.clutter_density[d]);
     for (std::size_t o = 0; o < seen.size(); ++o)

@@ -1,11 +1,10 @@
-#include "slamot/core/association/JointCompatibility.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "AssociationProblems.h"
+#include "slamot/core/association/JointCompatibility.h"
 #include "slamot/core/association/SequentialCompatibility.h"
 
 namespace slamot {
@@ -18,7 +17,8 @@ struct BruteForce {
     double nis = 0;
 };
 
-/// Of all pairings that are compatible after each decision, the one with the most pairs, then the smallest NIS.
+/// Of all pairings that are compatible after each decision, the one with the most pairs, then the smallest
+/// NIS.
 BruteForce bruteForce(const AssociationProblem& problem, const test::MatrixInnovations& innovations,
                       PairGates& gates) {
     BruteForce best;
@@ -65,8 +65,8 @@ TEST(JointCompatibility, AgreesWithBruteForceOnRandomProblems) {
 
 TEST(JointCompatibility, TakesBackAGreedyChoice) {
     // Three objects on a line and a robot whose position along it is unknown by 2 m. Detection 0 lies between
-    // two candidates and is likelier to be object 0 alone (residual 0.4, not -0.6), but 1 and 2, which have two
-    // candidates as well and come later, only fit object 1's error of -0.6.
+    // two candidates and is likelier to be object 0 alone (residual 0.4, not -0.6), but 1 and 2, which have
+    // two candidates as well and come later, only fit object 1's error of -0.6.
     const std::vector<double> residuals{0.4, -0.6, 1.4, -0.6, 1.4, -0.6};
     test::MatrixInnovations innovations;
     innovations.nu = Eigen::VectorXd::Zero(12);

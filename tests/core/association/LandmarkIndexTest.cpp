@@ -1,5 +1,3 @@
-#include "slamot/core/association/LandmarkIndex.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "slamot/core/association/LandmarkIndex.h"
 #include "slamot/core/models/RangeBearing.h"
 #include "slamot/core/random/RandomStream.h"
 #include "support/Expect.h"
@@ -67,8 +66,9 @@ TEST(LandmarkIndex, TheRimCounts) {
 
 TEST(LandmarkIndex, RefusesNonsense) {
     LandmarkIndex index;
-    EXPECT_THAT(test::messageOf<std::invalid_argument>(
-                    [&] { index.set(7, {0, std::numeric_limits<double>::infinity()}); }),
+    EXPECT_THAT(test::messageOf<std::invalid_argument>([&] {
+                    index.set(7, {0, std::numeric_limits<double>::infinity()});
+                }),
                 testing::HasSubstr("landmark 7"));
     EXPECT_THROW(index.remove(7), std::out_of_range);
     RangeBearingSensor sensor;
@@ -91,7 +91,8 @@ TEST(LandmarkIndex, AKnownPoseSeesItsSector) {
     RangeBearingSensor sensor;
     sensor.max_range = 10;
     sensor.field_of_view = radians(90);
-    const std::vector<Vector2> points{{-5, 4.9}, {-5, 5.1}, {-5, -4.9}, {-5, -5.1}, {-9.9, 0}, {-10.1, 0}, {5, 0}};
+    const std::vector<Vector2> points{{-5, 4.9}, {-5, 5.1},  {-5, -4.9}, {-5, -5.1},
+                                      {-9.9, 0}, {-10.1, 0}, {5, 0}};
     for (std::size_t i = 0; i < points.size(); ++i) index.set(static_cast<BlockId>(i), points[i]);
     PoseGaussian robot;
     robot.mean = {0, 0, pi};
@@ -118,7 +119,8 @@ TEST(LandmarkIndex, MissesNothingThatAPoseWithinItsBoundsSees) {
         robot.covariance.col(2) *= 0.3;
         const std::vector<BlockId> found = index.inView(robot, sensor, 0.95, 0);
         found_total += found.size();
-        // A pose within the bounds for position (chi-square 5.99 of two degrees) and heading (1.96 deviations).
+        // A pose within the bounds for position (chi-square 5.99 of two degrees) and heading (1.96
+        // deviations).
         const Vector3 error = robot.covariance.llt().matrixL() * test::randomVector(random, 3);
         const Matrix2 P = robot.covariance.topLeftCorner<2, 2>();
         if (error.head<2>().dot(P.inverse() * error.head<2>()) > 5.991 ||

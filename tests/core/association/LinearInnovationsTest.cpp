@@ -1,7 +1,6 @@
-#include "slamot/core/association/LinearInnovations.h"
-
 #include <gtest/gtest.h>
 
+#include "slamot/core/association/LinearInnovations.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
@@ -24,7 +23,8 @@ TYPED_TEST(LinearInnovationsOf, AreThoseOfTheUpdate) {
     // Objects that depend on the robot, a mover among them; one is put away and brought back.
     const auto add = [&](BlockKind kind, int size) {
         Eigen::VectorXd mean = 4 * test::randomVector(random, size);
-        return bank.augment(kind, {mean, test::randomMatrix(random, size, 3), test::randomCovariance(random, size, 0.1)});
+        return bank.augment(
+            kind, {mean, test::randomMatrix(random, size, 3), test::randomCovariance(random, size, 0.1)});
     };
     const std::vector<BlockId> objects{add(BlockKind::landmark, 2), add(BlockKind::target, 6),
                                        add(BlockKind::landmark, 2), add(BlockKind::landmark, 2)};

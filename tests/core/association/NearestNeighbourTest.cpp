@@ -1,7 +1,7 @@
-#include "slamot/core/association/NearestNeighbour.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "slamot/core/association/NearestNeighbour.h"
 
 namespace slamot {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-// A robot among landmarks, and a batch of detections, in a world that can be turned: what the sensor reports and how
-// uncertain everything is relative to the robot stay the same.
+// A robot among landmarks, and a batch of detections, in a world that can be turned: what the sensor reports
+// and how uncertain everything is relative to the robot stay the same.
 #include <memory>
 #include <vector>
 
@@ -24,7 +24,8 @@ struct PairScene {
     }
 };
 
-/// Landmarks at `around` in the robot's frame, all first seen from here; detections as given; robot_std [m, m, rad].
+/// Landmarks at `around` in the robot's frame, all first seen from here; detections as given; robot_std [m,
+/// m, rad].
 inline PairScene pairScene(double heading, const std::vector<Vector2>& around, const std::vector<Vector2>& z,
                            const Vector3& robot_std, double landmark_std, Consistency consistency) {
     PairScene scene;

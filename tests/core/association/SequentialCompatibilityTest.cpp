@@ -1,17 +1,16 @@
-#include "slamot/core/association/SequentialCompatibility.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "AssociationProblems.h"
+#include "slamot/core/association/SequentialCompatibility.h"
 
 namespace slamot {
 namespace {
 
 using testing::ElementsAre;
 
-/// First rows share an error of variance 4, as under an unknown position along x; each has 0.01 of its own. Second
-/// rows are zero with variance 1.
+/// First rows share an error of variance 4, as under an unknown position along x; each has 0.01 of its own.
+/// Second rows are zero with variance 1.
 test::MatrixInnovations alongX(const std::vector<double>& residuals) {
     const auto n = static_cast<Eigen::Index>(residuals.size());
     test::MatrixInnovations out;
@@ -28,7 +27,8 @@ test::MatrixInnovations alongX(const std::vector<double>& residuals) {
 TEST(SequentialCompatibility, TheCertainPairTellsWhichOfTwoIsMeant) {
     // The robot is 1 m off. Detection 1 has one candidate, at residual 1. Detection 0 is nearest to object 0
     // at residual 0, but object 1, at 0.95, is off by the same error. Alone 0 is likelier, jointly 1.
-    const AssociationProblem problem(2, 3, {{0, 0, 0, -1.5}, {0, 1, 0.9025 / 4.01, -1.7}, {1, 2, 1 / 4.01, -1.8}});
+    const AssociationProblem problem(2, 3,
+                                     {{0, 0, 0, -1.5}, {0, 1, 0.9025 / 4.01, -1.7}, {1, 2, 1 / 4.01, -1.8}});
     test::MatrixInnovations innovations = alongX({0, 0.95, 1});
     PairGates gates(0.99);
     EXPECT_THAT(sequentialCompatibility(problem, innovations, gates).objects(problem), ElementsAre(1, 2));
@@ -60,9 +60,10 @@ TEST(InnovationFactor, GrowsAndShrinksLikeTheWhole) {
         Eigen::MatrixXd S(2 * n, 2 * n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = 0; j < n; ++j)
-                S.block<2, 2>(2 * i, 2 * j) =
-                    innovations.covariance(list[static_cast<std::size_t>(i)], list[static_cast<std::size_t>(j)]);
-        return -0.5 * (innovations.nis(list) + std::log(S.determinant())) - std::log(2 * pi) * static_cast<double>(n);
+                S.block<2, 2>(2 * i, 2 * j) = innovations.covariance(list[static_cast<std::size_t>(i)],
+                                                                     list[static_cast<std::size_t>(j)]);
+        return -0.5 * (innovations.nis(list) + std::log(S.determinant())) -
+               std::log(2 * pi) * static_cast<double>(n);
     };
     for (const int c : {5, 2, 7, 0}) {
         const double before = logDensity(factor.candidates());

@@ -1,5 +1,6 @@
-// Every method gives the same answer in a world turned by any angle. Detections lie all around, several straight
-// behind, where the bearing turns over, and headings go through the full circle, pi and -pi included.
+// Every method gives the same answer in a world turned by any angle. Detections lie all around, several
+// straight behind, where the bearing turns over, and headings go through the full circle, pi and -pi
+// included.
 #include <gtest/gtest.h>
 
 #include "PairScene.h"
@@ -15,8 +16,8 @@ namespace slamot {
 namespace {
 
 test::PairScene turned(double heading, Consistency consistency) {
-    // Pairs of landmarks 0.4 to 0.6 m apart; a robot turned by 0.05 rad and shifted by 0.1 m from where it believes
-    // to be, so that the nearest is often the wrong one; clutter at the end.
+    // Pairs of landmarks 0.4 to 0.6 m apart; a robot turned by 0.05 rad and shifted by 0.1 m from where it
+    // believes to be, so that the nearest is often the wrong one; clutter at the end.
     const std::vector<Vector2> around{{-8, 0.1}, {-8, -0.4}, {-6, 3},  {-6.2, 3.5}, {5, 5},   {5.4, 4.8},
                                       {0, -7},   {0.5, -7},  {-3, -4}, {9, 0},      {9, 0.5}, {-5, 0}};
     std::vector<Vector2> z;
@@ -43,8 +44,9 @@ Answers answersAt(double heading, Consistency consistency) {
     const GatedPairs gated = scene.gated(gates);
     const AssociationProblem& problem = gated.problem;
     LinearInnovations innovations(scene.state(), gated.measurements);
-    const DetectionModel model{std::vector<double>(scene.landmarks.size(), 0.9),
-                               std::vector<double>(scene.all.size(), clutterDensity(5, scene.seen.sensors[0])), 0.99};
+    const DetectionModel model{
+        std::vector<double>(scene.landmarks.size(), 0.9),
+        std::vector<double>(scene.all.size(), clutterDensity(5, scene.seen.sensors[0])), 0.99};
     Answers out;
     out.hard = {nearestNeighbour(problem).objects(problem),
                 sequentialCompatibility(problem, innovations, gates).objects(problem),
@@ -55,7 +57,8 @@ Answers answersAt(double heading, Consistency consistency) {
     for (int c = 0; c < problem.candidates(); ++c) out.candidates.push_back(problem.candidate(c));
 
     LandmarkIndex index;
-    for (std::size_t i = 0; i < scene.landmarks.size(); ++i) index.set(scene.landmarks[i], scene.positions[i]);
+    for (std::size_t i = 0; i < scene.landmarks.size(); ++i)
+        index.set(scene.landmarks[i], scene.positions[i]);
     const PoseGaussian robot{scene.robot, scene.state().covariance(robot_block, robot_block)};
     RangeBearingSensor narrow = scene.seen.sensors[0];
     narrow.max_range = 7;
@@ -67,7 +70,8 @@ Answers answersAt(double heading, Consistency consistency) {
 }
 
 void expectSame(const std::vector<double>& a, const std::vector<double>& b) {
-    // Turning rounds positions of 20 m to 4e-15, gates of 0.05 m and 0.02 rad make of it 1e-12; sums do the rest.
+    // Turning rounds positions of 20 m to 4e-15, gates of 0.05 m and 0.02 rad make of it 1e-12; sums do the
+    // rest.
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-9);
 }
@@ -94,8 +98,8 @@ TEST_P(TurnedWorlds, GiveTheSameAnswers) {
             expectSame({a.nis, a.log_likelihood}, {b.nis, b.log_likelihood});
         }
         EXPECT_EQ(answers.hard, straight.hard);
-        for (const auto& [a, b] :
-             {std::make_pair(&answers.exact, &straight.exact), std::make_pair(&answers.loopy, &straight.loopy)}) {
+        for (const auto& [a, b] : {std::make_pair(&answers.exact, &straight.exact),
+                                   std::make_pair(&answers.loopy, &straight.loopy)}) {
             expectSame(a->pair, b->pair);
             expectSame(a->none, b->none);
             expectSame(a->missed, b->missed);
