@@ -100,6 +100,20 @@ TEST(LandmarkIndex, AKnownPoseSeesItsSector) {
     EXPECT_THAT(index.inView(robot, sensor, 0.99, 0.2), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
+TEST(LandmarkIndex, ATurnMovesASensorOnALeverArm) {
+    // 3 m to the left of the robot: a turn by 1.96 * 0.1 rad takes it 0.588 m forwards.
+    LandmarkIndex index;
+    index.set(0, {10.5, 3});
+    index.set(1, {10.7, 3});
+    RangeBearingSensor sensor;
+    sensor.max_range = 10;
+    sensor.pose = {0, 3, 0};
+    PoseGaussian robot;
+    EXPECT_THAT(index.inView(robot, sensor, 0.95, 0), ElementsAre());
+    robot.covariance(2, 2) = 0.01;
+    EXPECT_THAT(index.inView(robot, sensor, 0.95, 0), ElementsAre(0));
+}
+
 TEST(LandmarkIndex, MissesNothingThatAPoseWithinItsBoundsSees) {
     RandomStream random(42, RandomPurpose::test);
     LandmarkIndex index(0.4);

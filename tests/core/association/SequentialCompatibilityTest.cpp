@@ -9,9 +9,9 @@ namespace {
 
 using testing::ElementsAre;
 
-/// First rows share an error of variance 4, as under an unknown position along x; each has 0.01 of its own.
+/// First rows share an error of variance 4, as under an unknown position along x; each has `own` beside it.
 /// Second rows are zero with variance 1.
-test::MatrixInnovations alongX(const std::vector<double>& residuals) {
+test::MatrixInnovations alongX(const std::vector<double>& residuals, double own = 0.01) {
     const auto n = static_cast<Eigen::Index>(residuals.size());
     test::MatrixInnovations out;
     out.nu = Eigen::VectorXd::Zero(2 * n);
@@ -19,7 +19,7 @@ test::MatrixInnovations alongX(const std::vector<double>& residuals) {
     for (Eigen::Index i = 0; i < n; ++i) {
         out.nu(2 * i) = residuals[static_cast<std::size_t>(i)];
         out.S(2 * i + 1, 2 * i + 1) = 1;
-        for (Eigen::Index j = 0; j < n; ++j) out.S(2 * i, 2 * j) = 4 + (i == j ? 0.01 : 0);
+        for (Eigen::Index j = 0; j < n; ++j) out.S(2 * i, 2 * j) = 4 + (i == j ? own : 0);
     }
     return out;
 }
@@ -31,6 +31,18 @@ TEST(SequentialCompatibility, TheCertainPairTellsWhichOfTwoIsMeant) {
                                      {{0, 0, 0, -1.5}, {0, 1, 0.9025 / 4.01, -1.7}, {1, 2, 1 / 4.01, -1.8}});
     test::MatrixInnovations innovations = alongX({0, 0.95, 1});
     PairGates gates(0.99);
+    EXPECT_THAT(sequentialCompatibility(problem, innovations, gates).objects(problem), ElementsAre(1, 2));
+}
+
+TEST(SequentialCompatibility, TakesTheLikeliestGivenThoseBeforeNotTheLikeliestAlone) {
+    // As above with 0.2 of their own: given a residual of 1, the next is expected at 4 / 4.2 = 0.95 with
+    // variance 4.2 - 16 / 4.2 = 0.39. Both of its candidates are compatible; the one at 0.95 is likelier,
+    // alone the one at 0.
+    const AssociationProblem problem(2, 3,
+                                     {{0, 0, 0, -1.5}, {0, 1, 0.9025 / 4.2, -1.7}, {1, 2, 1 / 4.2, -1.8}});
+    test::MatrixInnovations innovations = alongX({0, 0.95, 1}, 0.2);
+    PairGates gates(0.99);
+    EXPECT_LT(innovations.nis({2, 0}), gates(2));
     EXPECT_THAT(sequentialCompatibility(problem, innovations, gates).objects(problem), ElementsAre(1, 2));
 }
 

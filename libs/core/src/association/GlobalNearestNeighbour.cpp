@@ -19,12 +19,10 @@ Pairing globalNearestNeighbour(const AssociationProblem& problem, const Detectio
             const int detection = cluster.detections[static_cast<std::size_t>(row)];
             cost(row, objects + row) = 0;
             for (int c = problem.first(detection); c < problem.first(detection + 1); ++c) {
-                const double ratio = ratios[static_cast<std::size_t>(c)];
-                if (ratio <= 0) continue;
                 const auto column = std::lower_bound(cluster.objects.begin(), cluster.objects.end(),
                                                      problem.candidate(c).object) -
                                     cluster.objects.begin();
-                cost(row, column) = -ratio;
+                cost(row, column) = -ratios[static_cast<std::size_t>(c)];
                 candidate(row, column) = c;
             }
         }
