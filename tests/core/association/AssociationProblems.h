@@ -21,6 +21,7 @@ struct MatrixInnovations : JointInnovations {
 
     /// nu^t S^-1 nu of some candidates, by elimination of the whole.
     double nis(const std::vector<int>& candidates) const {
+        if (candidates.empty()) return 0;
         const auto n = static_cast<Eigen::Index>(candidates.size());
         Eigen::VectorXd part(2 * n);
         Eigen::MatrixXd P(2 * n, 2 * n);

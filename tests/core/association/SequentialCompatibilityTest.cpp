@@ -67,7 +67,8 @@ TEST(InnovationFactor, GrowsAndShrinksLikeTheWhole) {
     test::MatrixInnovations innovations = test::randomInnovations(random, 8, 2);
     InnovationFactor factor(innovations, 8);
     // log N of the last given the others: the difference of two joint densities, determinants by LU.
-    const auto logDensity = [&innovations](const std::vector<int>& list) {
+    const auto logDensity = [&innovations](const std::vector<int>& list) -> double {
+        if (list.empty()) return 0;
         const auto n = static_cast<Eigen::Index>(list.size());
         Eigen::MatrixXd S(2 * n, 2 * n);
         for (Eigen::Index i = 0; i < n; ++i)

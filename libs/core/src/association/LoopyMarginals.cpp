@@ -43,20 +43,20 @@ PairMarginals loopyMarginals(const PairGraph& graph) {
         psi[e] = std::exp(graph.edges[e].log_weight);
     }
 
-    // mu: what an object says to a detection, how much it wants it compared with its other choices; nu: what
+    // mu: what an object says to a detection, how much it wants it compared with its other choices; phi: what
     // a detection answers, how free it is.
-    std::vector<double> mu(count, 0), nu(count, 1), wanted(count), others(count);
+    std::vector<double> mu(count, 0), phi(count, 1), wanted(count), others(count);
     PairMarginals result;
     result.edge.assign(count, 0);
     result.none.assign(of_row.size(), 1);
     for (double change = 1; change > steady && result.cost < most_rounds; ++result.cost) {
-        for (std::size_t e = 0; e < count; ++e) wanted[e] = psi[e] * nu[e];
+        for (std::size_t e = 0; e < count; ++e) wanted[e] = psi[e] * phi[e];
         sumOfOthers(of_column, wanted, others);
         for (std::size_t e = 0; e < count; ++e) mu[e] = psi[e] / others[e];
         sumOfOthers(of_row, mu, others);
         change = 0;
         for (std::size_t e = 0; e < count; ++e) {
-            nu[e] = 1 / others[e];
+            phi[e] = 1 / others[e];
             const double marginal = mu[e] / (others[e] + mu[e]);
             change = std::max(change, std::abs(marginal - result.edge[e]));
             result.edge[e] = marginal;
