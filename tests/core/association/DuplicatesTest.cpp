@@ -45,7 +45,7 @@ TEST(Duplicates, StayWithinTheNodeBudget) {
 }
 
 TEST(Duplicates, WithoutClutterTheSearchEndsByItself) {
-    // The sequential pairing has all 12 pairs mostly, and its NIS cuts off most of the tree.
+    // All 12 pairs are soon made, and their NIS cuts off most of the tree: 11,505 nodes are the most here.
     PairGates gates(0.99);
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         const test::PairScene scene = row(seed, 0);
