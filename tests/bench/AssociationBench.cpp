@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "MowerWorld.h"
+#include "WorldLayout.h"
 #include "slamot/core/association/AssociationMarginals.h"
 #include "slamot/core/association/GatedPairs.h"
 #include "slamot/core/association/GlobalNearestNeighbour.h"
@@ -61,12 +61,12 @@ struct Scene {
     explicit Scene(int count) {
         RandomStream random(1, RandomPurpose::test);
         RangeBearingSensor sensor;
-        sensor.max_range = bench::MowerWorld::reach;
+        sensor.max_range = bench::sensor_reach;
         seen.sensors.push_back(sensor);
         // From the centre outwards, each in a ring of equal area: all maps have the same landmarks in view.
         RandomStream positions(2, RandomPurpose::world);
         for (int i = 0; i < count; ++i) {
-            const double r = std::sqrt((i + positions.uniform()) / (pi * bench::MowerWorld::density));
+            const double r = std::sqrt((i + positions.uniform()) / (pi * bench::landmark_density));
             const double b = positions.uniform(-pi, pi);
             map.landmarks.emplace_back(r * std::cos(b), r * std::sin(b));
             index.set(i + 1, map.landmarks.back());

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "MowerWorld.h"
+#include "WorldLayout.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
@@ -20,7 +20,7 @@ constexpr int seen = 40;  // landmarks in one batch
 /// correlated. The nearest come first; beyond the first 150 all are put away.
 std::vector<BlockId> fill(JointBank& bank, int count) {
     const int side = static_cast<int>(std::ceil(std::sqrt(count)));
-    const double spacing = 1.0 / std::sqrt(bench::MowerWorld::density);
+    const double spacing = 1.0 / std::sqrt(bench::landmark_density);
     std::vector<Vector2> points;
     for (int i = 0; i < side * side; ++i)
         points.push_back(spacing * Vector2(i % side - 0.5 * side + 0.3, i / side - 0.5 * side + 0.4));

@@ -30,6 +30,7 @@ struct Options {
 };
 
 constexpr int kf_slam_to = 1600;  // a step of kf-slam takes the cube of the map
+constexpr int road_too = 1600;    // beside the largest size
 constexpr int modes_from = 1000;  // in smaller maps most landmarks are active: nothing to compress
 constexpr int movers = 50, movers_landmarks = 1000;
 
@@ -37,39 +38,53 @@ void say(const std::string& text) {
     std::cerr << text << std::endl;
 }
 
-std::string inWords(const char* program, const std::vector<StepTime>& times, double end_error) {
+void sayTimes(const char* program, const std::vector<StepTime>& times, double end_error) {
     const TimeSummary t = summarise(times);
-    return fmt::format(
+    say(fmt::format(
         "  {}: {} steps, median {:.3g} ms, 99 % {:.3g} ms, longest {:.3g} ms; position {:.2g} m off", program,
-        t.steps, t.median, t.p99, t.longest, end_error);
+        t.steps, t.median, t.p99, t.longest, end_error));
 }
 
-SizeResult measure(int landmarks, double step, const Patience& patience) {
-    say(fmt::format("{} landmarks", landmarks));
-    SizeResult result{runCompressed(landmarks, step), {}, {}};
+CompressedRun measureCompressed(WorldLayout world, int landmarks, double step) {
+    say(fmt::format("{}, {} landmarks", nameOf(world), landmarks));
+    CompressedRun run = runCompressed(world, landmarks, step);
     std::vector<StepTime> times;
-    for (const CompressedStep& each : result.compressed.steps) times.push_back(each.time);
-    say(inWords("compressed", times, result.compressed.end_error));
+    for (const CompressedStep& each : run.steps) times.push_back(each.time);
+    sayTimes("compressed", times, run.end_error);
+    return run;
+}
 
+SizeResult measureField(int landmarks, double step, const Patience& patience) {
+    SizeResult result{measureCompressed(WorldLayout::field, landmarks, step), {}, {}};
     if (denseBytes(landmarks) > availableMemory()) {
         say(fmt::format("  dense: left out, it may need {} MB and {} MB are available",
                         denseBytes(landmarks) / 1000000, availableMemory() / 1000000));
     } else {
         result.dense = runDense(landmarks, step, patience);
-        say(inWords("dense", result.dense->times, result.dense->end_error));
+        sayTimes("dense", result.dense->times, result.dense->end_error);
     }
     if (landmarks <= kf_slam_to) {
         result.kf_slam = runKfSlam(landmarks, step, patience);
-        say(inWords("kf-slam", result.kf_slam->times, result.kf_slam->end_error));
+        sayTimes("kf-slam", result.kf_slam->times, result.kf_slam->end_error);
     }
     return result;
+}
+
+/// Of sizes by rising size.
+std::vector<int> roadSizes(const std::vector<int>& sizes) {
+    std::vector<int> out;
+    for (const int landmarks : sizes)
+        if (landmarks == road_too || landmarks == sizes.back()) out.push_back(landmarks);
+    return out;
 }
 
 Results measureAll(const Options& options) {
     const Patience patience = options.quick ? Patience{10, 10} : Patience{};
     Results results;
     for (const int landmarks : options.sizes)
-        results.sizes.push_back(measure(landmarks, options.step, patience));
+        results.sizes.push_back(measureField(landmarks, options.step, patience));
+    for (const int landmarks : roadSizes(options.sizes))
+        results.roads.push_back(measureCompressed(WorldLayout::road, landmarks, options.step));
     for (const int landmarks : options.sizes)
         for (int modes = 1; modes <= 3 && landmarks >= modes_from; ++modes) {
             say(fmt::format("memory of {} landmarks with {} modes", landmarks, modes));

@@ -25,7 +25,8 @@ struct MoversResult {
     MoversRun run;
 };
 struct Results {
-    std::vector<SizeResult> sizes;  ///< by rising size
+    std::vector<SizeResult> sizes;     ///< over the field, by rising size
+    std::vector<CompressedRun> roads;  ///< by rising size
     std::vector<ModesResult> modes;
     std::vector<MoversResult> movers;
 };
@@ -33,18 +34,23 @@ struct Results {
 /// Of the steps of a run that are wanted.
 TimeSummary summarise(const CompressedRun& run, const std::function<bool(const CompressedStep&)>& wanted);
 
-/// Engines and kf-slam by map size: the second pass of the compressed engine, so that all have the full map.
+/// Compressed runs over the field, then over the road.
+std::vector<const CompressedRun*> compressedRuns(const Results& results);
+
+/// Engines and kf-slam by map size, over the field: the second pass of the compressed engine, so that all
+/// have the full map.
 study::Table timesTable(const Results& results);
-/// The compressed engine by map size and pass.
+/// The compressed engine by world, map size and pass.
 study::Table passesTable(const Results& results);
-/// Each kind of step of the compressed engine on the largest map.
+/// Each kind of step of the compressed engine on the largest map of each world.
 study::Table stepsTable(const Results& results);
+/// Over the field.
 study::Table memoryTable(const Results& results);
 study::Table moversTable(const Results& results);
 /// All step times there are, for map_size.csv.
 study::Table allTimesTable(const Results& results);
 
-/// Time of a step and memory against the size of the map.
+/// Time of a step and memory against the size of the map, over the field.
 report::Figure mapSizeFigure(const Results& results);
 
 }  // namespace slamot::bench

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "LaneWorld.h"
 #include "Machine.h"
-#include "MowerWorld.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/JointFilter.h"
 #include "slamot/core/plugin/PluginRegistry.h"
@@ -62,7 +62,7 @@ class EventCounter {
 
 /// Drives a filter from a full map on until patience ends. The first step is not counted: it sets sizes.
 template <class Filter, class Look>
-FilledRun driveOn(Filter& filter, MowerWorld& world, std::size_t from, const Patience& patience,
+FilledRun driveOn(Filter& filter, LaneWorld& world, std::size_t from, const Patience& patience,
                   const Look& look) {
     FilledRun run;
     const double begin = timeNow().wall;
@@ -90,9 +90,10 @@ std::size_t covarianceBytes(int landmarks) {
     return sizeof(double) * dimension * dimension;
 }
 
-CompressedRun runCompressed(int landmarks, double step) {
-    MowerWorld world(landmarks, step);
+CompressedRun runCompressed(WorldLayout layout, int landmarks, double step) {
+    LaneWorld world(layout, landmarks, step);
     CompressedRun run;
+    run.layout = layout;
     run.steps.reserve(world.path().size());
     const ResidentGrowth resident;
     JointFilter filter(parametersFor(JointEngine::Kind::compressed), {});
@@ -116,7 +117,7 @@ CompressedRun runCompressed(int landmarks, double step) {
 }
 
 FilledRun runDense(int landmarks, double step, const Patience& patience) {
-    MowerWorld world(landmarks, step);
+    LaneWorld world(WorldLayout::field, landmarks, step);
     const std::size_t from = world.middle();
     JointFilter filter(parametersFor(JointEngine::Kind::dense), {});
     filter.start(world.stamp(from), {world.path()[from], start_covariance});
@@ -129,7 +130,7 @@ std::size_t denseBytes(int landmarks) {
 }
 
 FilledRun runKfSlam(int landmarks, double step, const Patience& patience) {
-    MowerWorld world(landmarks, step);
+    LaneWorld world(WorldLayout::field, landmarks, step);
     const std::size_t from = world.middle();
     const auto estimator = PluginRegistry::discover().createEstimator("mrpt_kf_slam");
     estimator->initialize({});
@@ -142,7 +143,7 @@ FilledRun runKfSlam(int landmarks, double step, const Patience& patience) {
 }
 
 MemoryUse runModes(int landmarks, int modes) {
-    MowerWorld world(landmarks, 1.0);
+    LaneWorld world(WorldLayout::field, landmarks, 1.0);
     JointFilterParameters parameters = parametersFor(JointEngine::Kind::compressed);
     parameters.imm.modes = firstModes(modes);
     parameters.imm.form = ImmForm::exact;
@@ -166,7 +167,7 @@ MemoryUse runModes(int landmarks, int modes) {
 
 MoversRun runMovers(JointEngine::Kind engine, int movers, int landmarks, double step,
                     const Patience& patience) {
-    MowerWorld world(landmarks, step);
+    LaneWorld world(WorldLayout::field, landmarks, step);
     JointFilterParameters parameters = parametersFor(engine);
     parameters.imm.modes = firstModes(2);
     parameters.imm.form = ImmForm::scalable;

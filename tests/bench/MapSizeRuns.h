@@ -1,10 +1,12 @@
 #pragma once
-// The runs behind map_size_bench: the step time and the memory of one filter over one map.
+// The runs behind map_size_bench: the step time and the memory of one filter over one map, a field where no
+// layout is given.
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "StepTimes.h"
+#include "WorldLayout.h"
 #include "slamot/core/estimation/JointEngine.h"
 
 namespace slamot::bench {
@@ -31,6 +33,7 @@ struct MemoryUse {
 std::size_t covarianceBytes(int landmarks);
 
 struct CompressedRun {
+    WorldLayout layout = WorldLayout::field;
     int landmarks = 0;  ///< in the map at the end
     double seen = 0;    ///< landmarks a step, mean
     std::vector<CompressedStep> steps;
@@ -38,7 +41,7 @@ struct CompressedRun {
     double end_error = 0;  ///< [m], of the robot's position
 };
 /// ekf_slamot, invariant, over a run that sees all of the map twice.
-CompressedRun runCompressed(int landmarks, double step);
+CompressedRun runCompressed(WorldLayout layout, int landmarks, double step);
 
 /// Steps in the midst of a map that is all there.
 struct FilledRun {

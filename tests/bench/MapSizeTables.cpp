@@ -56,6 +56,13 @@ TimeSummary summarise(const CompressedRun& run, const std::function<bool(const C
     return summarise(times);
 }
 
+std::vector<const CompressedRun*> compressedRuns(const Results& results) {
+    std::vector<const CompressedRun*> runs;
+    for (const SizeResult& size : results.sizes) runs.push_back(&size.compressed);
+    for (const CompressedRun& run : results.roads) runs.push_back(&run);
+    return runs;
+}
+
 study::Table timesTable(const Results& results) {
     study::Table table;
     table.columns = {numberColumn("landmarks", "landmarks"),
@@ -88,7 +95,8 @@ study::Table timesTable(const Results& results) {
 
 study::Table passesTable(const Results& results) {
     study::Table table;
-    table.columns = {numberColumn("landmarks", "landmarks"),
+    table.columns = {textColumn("world", "world"),
+                     numberColumn("landmarks", "landmarks"),
                      textColumn("pass", "pass"),
                      numberColumn("steps", "steps"),
                      numberColumn("commits", "commits"),
@@ -98,36 +106,42 @@ study::Table passesTable(const Results& results) {
                      numberColumn("99 % of all [ms]", "p99_ms"),
                      numberColumn("longest [ms]", "longest_ms"),
                      numberColumn("longest, wall [ms]", "longest_wall_ms")};
-    for (const SizeResult& size : results.sizes)
+    for (const CompressedRun* run : compressedRuns(results))
         for (const bool second : {false, true}) {
-            const TimeSummary all = summaryOf(size.compressed, second, step_kinds[0]),
-                              without = summaryOf(size.compressed, second, step_kinds[1]),
-                              commits = summaryOf(size.compressed, second, step_kinds[3]);
-            table.lines.push_back({{countField(size.compressed.landmarks), textField(passName(second)),
-                                    countField(all.steps), countField(commits.steps), numberField(all.median),
-                                    numberField(all.mean), numberField(without.p99), numberField(all.p99),
-                                    numberField(all.longest), numberField(all.wall_longest)}});
+            const TimeSummary all = summaryOf(*run, second, step_kinds[0]),
+                              without = summaryOf(*run, second, step_kinds[1]),
+                              commits = summaryOf(*run, second, step_kinds[3]);
+            table.lines.push_back(
+                {{textField(nameOf(run->layout)), countField(run->landmarks), textField(passName(second)),
+                  countField(all.steps), countField(commits.steps), numberField(all.median),
+                  numberField(all.mean), numberField(without.p99), numberField(all.p99),
+                  numberField(all.longest), numberField(all.wall_longest)}});
         }
     return table;
 }
 
 study::Table stepsTable(const Results& results) {
     study::Table table;
-    table.columns = {textColumn("pass", "pass"),
+    table.columns = {textColumn("world", "world"),
+                     numberColumn("landmarks", "landmarks"),
+                     textColumn("pass", "pass"),
                      textColumn("steps", "steps_of"),
                      numberColumn("number", "steps"),
                      numberColumn("median [ms]", "median_ms"),
                      numberColumn("99th percentile [ms]", "p99_ms"),
                      numberColumn("longest [ms]", "longest_ms"),
                      numberColumn("longest, wall [ms]", "longest_wall_ms")};
-    for (const bool second : {false, true})
-        for (const StepKind& kind : step_kinds) {
-            const TimeSummary times = summaryOf(results.sizes.back().compressed, second, kind);
-            table.lines.push_back(
-                {{textField(passName(second)), textField(kind.name), countField(times.steps),
-                  numberField(times.median), numberField(times.p99), numberField(times.longest),
-                  numberField(times.wall_longest)}});
-        }
+    std::vector<const CompressedRun*> largest{&results.sizes.back().compressed};
+    if (!results.roads.empty()) largest.push_back(&results.roads.back());
+    for (const CompressedRun* run : largest)
+        for (const bool second : {false, true})
+            for (const StepKind& kind : step_kinds) {
+                const TimeSummary times = summaryOf(*run, second, kind);
+                table.lines.push_back(
+                    {{textField(nameOf(run->layout)), countField(run->landmarks), textField(passName(second)),
+                      textField(kind.name), countField(times.steps), numberField(times.median),
+                      numberField(times.p99), numberField(times.longest), numberField(times.wall_longest)}});
+            }
     return table;
 }
 
@@ -180,25 +194,30 @@ study::Table moversTable(const Results& results) {
 
 study::Table allTimesTable(const Results& results) {
     study::Table table;
-    for (const char* name : {"landmarks", "program", "pass", "steps_of", "seen", "steps", "mean_ms",
+    for (const char* name : {"world", "landmarks", "program", "pass", "steps_of", "seen", "steps", "mean_ms",
                              "median_ms", "p99_ms", "longest_ms", "wall_median_ms", "wall_longest_ms"})
         table.columns.push_back(textColumn(name, name));
-    const auto add = [&](int landmarks, const std::string& program, const std::string& pass,
-                         const std::string& kind, double seen, const TimeSummary& t) {
+    const auto add = [&](WorldLayout world, int landmarks, const std::string& program,
+                         const std::string& pass, const std::string& kind, double seen,
+                         const TimeSummary& t) {
         table.lines.push_back(
-            {{countField(landmarks), textField(program), textField(pass), textField(kind), numberField(seen),
-              countField(t.steps), numberField(t.mean), numberField(t.median), numberField(t.p99),
-              numberField(t.longest), numberField(t.wall_median), numberField(t.wall_longest)}});
+            {{textField(nameOf(world)), countField(landmarks), textField(program), textField(pass),
+              textField(kind), numberField(seen), countField(t.steps), numberField(t.mean),
+              numberField(t.median), numberField(t.p99), numberField(t.longest), numberField(t.wall_median),
+              numberField(t.wall_longest)}});
     };
-    for (const SizeResult& size : results.sizes) {
-        const int landmarks = size.compressed.landmarks;
+    for (const CompressedRun* run : compressedRuns(results))
         for (const bool second : {false, true})
             for (const StepKind& kind : step_kinds)
-                add(landmarks, "compressed", passName(second), kind.name, size.compressed.seen,
-                    summaryOf(size.compressed, second, kind));
-        if (size.dense) add(landmarks, "dense", "", "all", size.dense->seen, summarise(size.dense->times));
-        if (size.kf_slam)
-            add(landmarks, "kf-slam", "", "all", size.kf_slam->seen, summarise(size.kf_slam->times));
+                add(run->layout, run->landmarks, "compressed", passName(second), kind.name, run->seen,
+                    summaryOf(*run, second, kind));
+    const auto addFilled = [&](int landmarks, const std::string& program,
+                               const std::optional<FilledRun>& run) {
+        if (run) add(WorldLayout::field, landmarks, program, "", "all", run->seen, summarise(run->times));
+    };
+    for (const SizeResult& size : results.sizes) {
+        addFilled(size.compressed.landmarks, "dense", size.dense);
+        addFilled(size.compressed.landmarks, "kf-slam", size.kf_slam);
     }
     return table;
 }

@@ -1,9 +1,10 @@
 #pragma once
-// The world of the benchmarks: a square of evenly strewn landmarks, mown in lanes there and back, so that all
-// of the map is seen twice.
+// The world of the benchmarks: evenly strewn landmarks along lanes that are driven there and back, so that
+// all of the map is seen twice.
 #include <cstddef>
 #include <vector>
 
+#include "WorldLayout.h"
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/random/RandomStream.h"
@@ -11,14 +12,10 @@
 namespace slamot::bench {
 
 /// The robot drives at 1 m/s and makes one scan a step.
-class MowerWorld {
+class LaneWorld {
   public:
-    static constexpr double in_sight = 40;  ///< landmarks seen away from the rim, on average
-    static constexpr double reach = 20;     ///< [m] of the sensor, which looks all around
-    static const double density;            ///< [1/m^2]
-
     /// step: [m] between scans.
-    MowerWorld(int landmarks, double step);
+    LaneWorld(WorldLayout layout, int landmarks, double step);
 
     const std::vector<Pose2>& path() const { return path_; }
     bool secondPass(std::size_t step) const { return 2 * step > path_.size(); }
@@ -38,15 +35,16 @@ class MowerWorld {
 
   private:
     std::size_t cellOf(const Vector2& p) const;
-    void strew(int landmarks);
-    void mow(double step);
+    void drive(std::vector<Vector2> corners);
     RangeBearingDetection detect(const Pose2& robot, const Vector2& object, ObjectKind kind,
                                  int source) const;
     void addNoise(RangeBearingDetection& detection);
 
-    double side_, step_;  ///< [m]
-    int cells_;           ///< along a side, each as wide as the reach
+    double step_;         ///< [m]
+    double heading_std_;  ///< [rad] of the odometry, per root of a metre
     RandomStream random_;
+    double side_ = 0;  ///< [m]
+    int cells_ = 0;    ///< along a side, each as wide as the reach
     std::vector<Vector2> landmarks_;
     std::vector<std::vector<int>> by_cell_;
     std::vector<Pose2> path_;
