@@ -18,6 +18,7 @@ const StepKind step_kinds[] = {
     {"without any event", [](const StepEvents& e) { return !e.any(); }},
     {"with a commit", [](const StepEvents& e) { return e.commit; }},
     {"with an activation", [](const StepEvents& e) { return e.activation; }},
+    {"with an activation but no commit", [](const StepEvents& e) { return e.activation && !e.commit; }},
     {"with a regrouping", [](const StepEvents& e) { return e.regrouping; }},
 };
 
