@@ -143,8 +143,9 @@ TEST(ActiveSetPolicyTest, CommitsWhenThereIsMuchToGain) {
     EXPECT_FALSE(policy.worthCommit(120, 50, 49, 250)) << "few are kept in any case";
     EXPECT_FALSE(policy.worthCommit(100, 60, 0, 250));
     // One that is whole: more than four times what is kept.
-    EXPECT_TRUE(policy.worthCommit(200, 90, 68, 0));
-    EXPECT_FALSE(policy.worthCommit(200, 90, 67, 0));
+    EXPECT_TRUE(policy.worthCommit(180, 90, 68, 0));
+    EXPECT_FALSE(policy.worthCommit(180, 90, 67, 0));
+    EXPECT_FALSE(policy.worthCommit(240, 90, 68, 0)) << "movers stay and count";
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ bool ActiveSetPolicy::worthCommit(int active_dimension, int active_landmarks, in
         retirable < parameters_.retirable_part * active_landmarks)
         return false;
     // The base comes on top of what is kept: a map that is whole is divided only when both are fewer by far.
-    return base_dimension > 0 || active_landmarks > dividing_factor * (active_landmarks - retirable);
+    return base_dimension > 0 || active_dimension > dividing_factor * (active_dimension - 2 * retirable);
 }
 
 }  // namespace slamot
