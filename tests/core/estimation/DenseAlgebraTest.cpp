@@ -69,13 +69,9 @@ TEST(DenseAlgebraTest, ProductsAreEigens) {
         Eigen::MatrixXd out = C;
         multiply(A, B, out);
         EXPECT_TRUE(near(out, AB, rounding));
-        multiplyTransposed(A_t, B, out);
-        EXPECT_TRUE(near(out, AB, rounding));
         out = C;
-        addProduct(A, B, out);
-        EXPECT_TRUE(near(out, C + AB, rounding));
         addTransposedProduct(A_t, B, out);
-        EXPECT_TRUE(near(out, C + 2 * AB, rounding));
+        EXPECT_TRUE(near(out, C + AB, rounding));
         EXPECT_TRUE(near(product(A, B), AB, rounding));
         EXPECT_TRUE(near(transposedProduct(A_t, B), AB, rounding));
         EXPECT_TRUE(near(productTransposed(A, B_t), AB, rounding));

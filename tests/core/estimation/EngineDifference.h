@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "EngineTwins.h"
@@ -51,6 +52,7 @@ struct Difference {
 
 inline double relativeTo(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& expected) {
     if (difference.size() == 0) return 0;
+    if (!difference.allFinite()) return std::numeric_limits<double>::infinity();
     const double off = difference.cwiseAbs().maxCoeff();
     return off == 0 ? 0 : off / expected.cwiseAbs().maxCoeff();
 }

@@ -18,11 +18,11 @@ FarGroup someGroup() {
     FarGroup group;
     group.parts.resize(3);
     group.part(0).C = randomMatrix(random, 4, 4);
-    const Eigen::MatrixXd V = turningBasis(randomMatrix(random, 2, 14), 1e-12, 14);
+    const Eigen::MatrixXd V = turningBasis(randomMatrix(random, 2, 14), 1e-12);
     group.part(1) = {true, V.leftCols(6), {}};
     group.part(2) = {true, V.rightCols(8), {}};
     group.W = randomMatrix(random, 5, 4);
-    const Eigen::MatrixXd Q = turningBasis(randomMatrix(random, 2, 4), 1e-12, 4);
+    const Eigen::MatrixXd Q = turningBasis(randomMatrix(random, 2, 4), 1e-12);
     group.zeta = Q.transpose() * Eigen::Vector4d(1, -2, 1e-9, -1e-9).asDiagonal() * Q;
     group.shift = Eigen::VectorXd::Zero(4);
     return group;

@@ -54,6 +54,7 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     double worst = 0;
     const auto compare = [&worst](const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected) {
         ASSERT_EQ(value.rows(), expected.rows());
+        ASSERT_TRUE(value.allFinite());
         worst = std::max(worst, (value - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
     };
     for (int step = 0; step < 500; ++step) {
@@ -88,6 +89,7 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     EXPECT_GT(bank.commits(), 20);
     EXPECT_GT(came_back.size(), 100u);
     EXPECT_GT(bank.map().census().regroupings, 0);
+    EXPECT_GT(bank.map().census().added_terms, 0);
     EXPECT_LT(bank.activeDimension(), dense.state().dimension() / 2);
 }
 

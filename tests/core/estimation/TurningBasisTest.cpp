@@ -30,17 +30,24 @@ TEST(TurningBasisTest, SpansTheRowsAndTheTurnedRows) {
     seeds.row(1) *= 1e-5;
     seeds.bottomRows<2>() = turnedRows(seeds.topRows<2>());
     const Eigen::MatrixXd rows = randomMatrix(random, 5, 4) * seeds;
-    const Eigen::MatrixXd Y = turningBasis(rows, 1e-10, 20);
+    const Eigen::MatrixXd Y = turningBasis(rows, 1e-10);
     ASSERT_EQ(Y.rows(), 4);
     EXPECT_TRUE(near(Y * Y.transpose(), Eigen::MatrixXd::Identity(4, 4), 1e-12));
     EXPECT_TRUE(near(rows * Y.transpose() * Y, rows, 1e-10));
     EXPECT_TRUE(near(turnedRows(rows) * Y.transpose() * Y, turnedRows(rows), 1e-10));
     for (int k = 0; k < 4; k += 2) EXPECT_EQ(Y.row(k + 1), turnedRows(Y.row(k)).row(0));
-    // What is below the tolerance is left out, what does not fit is refused.
-    EXPECT_EQ(turningBasis(rows, 1e-3, 20).rows(), 2);
-    EXPECT_EQ(turningBasis(rows, 1e-10, 3).rows(), 0);
-    EXPECT_EQ(turningBasis(Eigen::MatrixXd::Zero(3, 4), 1e-10, 4).rows(), 0);
-    EXPECT_EQ(turningBasis(Eigen::MatrixXd(0, 4), 1e-10, 4).rows(), 0);
+    // What is below the tolerance is left out.
+    EXPECT_EQ(turningBasis(rows, 1e-3).rows(), 2);
+    EXPECT_EQ(turningBasis(Eigen::MatrixXd::Zero(3, 4), 1e-10).rows(), 0);
+    EXPECT_EQ(turningBasis(Eigen::MatrixXd(0, 4), 1e-10).rows(), 0);
+}
+
+TEST(TurningBasisTest, NoMoreRowsThanColumns) {
+    // A tolerance of nothing would go on with rounding; rows of the whole space span it.
+    RandomStream random(7, RandomPurpose::test);
+    const Eigen::MatrixXd Y = turningBasis(randomMatrix(random, 30, 10), 0);
+    ASSERT_EQ(Y.rows(), 10);
+    EXPECT_TRUE(near(Y * Y.transpose(), Eigen::MatrixXd::Identity(10, 10), 1e-12));
 }
 
 TEST(TurningBasisTest, ManyRowsOfAllSizes) {
@@ -49,7 +56,7 @@ TEST(TurningBasisTest, ManyRowsOfAllSizes) {
     RandomStream random(6, RandomPurpose::test);
     Eigen::MatrixXd rows = randomMatrix(random, 60, 150);
     for (int i = 0; i < 60; ++i) rows.row(i) *= std::pow(10.0, -i / 5.0);
-    const Eigen::MatrixXd Y = turningBasis(rows, 1e-11, 150);
+    const Eigen::MatrixXd Y = turningBasis(rows, 1e-11);
     const auto n = Y.rows();
     EXPECT_GT(n, 2 * 45);
     EXPECT_TRUE(near(Y * Y.transpose(), Eigen::MatrixXd::Identity(n, n), 1e-12));

@@ -31,7 +31,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
         .real("retirable_part", p.retirable_part, "-", Interval::probability(),
               "Commit when this part of the active landmarks is out of reach.")
         .integer("keep_at_least", p.keep_at_least, Interval::nonNegative(),
-                 "With fewer active landmarks nothing is put away.");
+                 "Active landmarks that are kept in any case, unless the base grows too large.");
     return table;
 }
 

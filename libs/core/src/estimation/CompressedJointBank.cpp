@@ -43,7 +43,11 @@ BlockId CompressedJointBank::augment(BlockKind kind, const std::vector<NewBlock>
 }
 
 void CompressedJointBank::remove(BlockId id) {
-    if (map_.contains(id)) return map_.remove(id);
+    if (map_.contains(id)) {
+        map_.remove(id);
+        if (map_.size() == 0) removeBase();
+        return;
+    }
     const BlockPlace gone = layout_.at(id);
     if (gone.kind == BlockKind::robot) throw std::invalid_argument("the robot cannot leave the joint state");
     for (Mode& mode : modes_) mode.gaussian.remove(gone.offset, gone.size);
@@ -115,6 +119,17 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
         g.lower().block(c, c, columns, columns) = P_cc;
     }
     for (const BlockId id : away) layout_.append(id, BlockKind::landmark, 2);
+    if (map_.size() == 0) removeBase();
+}
+
+void CompressedJointBank::removeBase() {
+    for (const BlockId id : base_) {
+        const BlockPlace gone = layout_.at(id);
+        for (Mode& mode : modes_) mode.gaussian.remove(gone.offset, gone.size);
+        layout_.remove(id);
+    }
+    base_.clear();
+    map_.clear();
 }
 
 void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) {
@@ -196,9 +211,11 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
     coming_.clear();
     for (const BlockId id : attention.measured)
         if (map_.contains(id)) coming_.push_back(id);
-    if (policy_.due()) {
-        // Out goes what has fallen behind, before what has come close joins.
-        retire(mode, attention.measured, weights);
+    const bool due = policy_.due();
+    // Out goes what has fallen behind, before what has come close joins.
+    if (due) retire(mode, attention.measured, weights);
+    if (policy_.range() > 0) map_.follow(mode.gaussian.mean().head<2>(), policy_.range(), due);
+    if (due) {
         if (map_.size() > 0) {
             const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
             map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
@@ -208,8 +225,6 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
             });
         }
         policy_.refreshed();
-    } else if (policy_.range() > 0) {
-        map_.follow(mode.gaussian.mean().head<2>(), policy_.range());
     }
     activate(coming_);
 }

@@ -36,14 +36,6 @@ void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
     gemm(CblasNoTrans, A, CblasNoTrans, B, 0, C);
 }
 
-void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
-    gemm(CblasTrans, A, CblasNoTrans, B, 0, C);
-}
-
-void addProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
-    gemm(CblasNoTrans, A, CblasNoTrans, B, 1, C);
-}
-
 void addTransposedProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
     gemm(CblasTrans, A, CblasNoTrans, B, 1, C);
 }

@@ -50,8 +50,8 @@ void PassiveCovariance::addProduct(int s, int t, const MatrixIn& A, const Matrix
 }
 
 void PassiveCovariance::addWaiting(WaitingTerm near_and_far, const WaitingTerm& two_far) {
-    if (near_and_far.rank() > 0) push(near_and_far_, std::move(near_and_far));
-    if (two_far.rank() > 0) gather(two_far);
+    if (near_and_far.cost() > 0) push(near_and_far_, std::move(near_and_far));
+    if (two_far.cost() > 0) gather(two_far);
 }
 
 void PassiveCovariance::gather(const WaitingTerm& two_far) {
@@ -68,16 +68,18 @@ void PassiveCovariance::gather(const WaitingTerm& two_far) {
 void PassiveCovariance::push(Queue& queue, WaitingTerm term) {
     while (queue.terms.size() >= most_waiting) work(queue, std::numeric_limits<double>::infinity());
     queue.pending += term.cost();
+    queue.pending_at_push = queue.pending;
     queue.terms.push_back(std::move(term));
-    // Done by the time the next one comes, if that takes as many steps as this one took.
-    queue.per_step = queue.pending / std::max(1.0, 0.8 * static_cast<double>(queue.steps));
+    // Done by the time the next one comes, if that takes as many steps as this one took; one that came early
+    // says little of the next.
+    queue.interval = std::max(static_cast<double>(queue.steps), 0.5 * queue.interval);
     queue.steps = 0;
 }
 
 void PassiveCovariance::step() {
     for (Queue* queue : {&near_and_far_, &two_far_}) {
         ++queue->steps;
-        work(*queue, queue->per_step);
+        work(*queue, queue->pending_at_push / std::max(1.0, 0.8 * queue->interval));
     }
 }
 
@@ -86,6 +88,7 @@ void PassiveCovariance::work(Queue& queue, double multiplications) {
         const WaitingTerm& oldest = queue.terms.front();
         if (queue.t >= static_cast<int>(oldest.parts.size())) {
             queue.terms.pop_front();
+            ++added_;
             queue.s = queue.t = 0;
             if (queue.terms.empty()) queue.pending = 0;
             if (std::isinf(multiplications)) return;
@@ -103,17 +106,11 @@ void PassiveCovariance::work(Queue& queue, double multiplications) {
     }
 }
 
-template <class Action>
-void PassiveCovariance::forWaiting(const Action& action) {
-    for (Queue* queue : {&near_and_far_, &two_far_})
-        for (WaitingTerm& term : queue->terms) action(term, &term == &queue->terms.front() ? queue : nullptr);
-    if (gathered_ > 0) action(gathering_, nullptr);
-}
-
-template <class Action>
-void PassiveCovariance::forWaiting(const Action& action) const {
-    const_cast<PassiveCovariance*>(this)->forWaiting(
-        [&action](const WaitingTerm& term, const Queue* adding) { action(term, adding); });
+template <class Self, class Action>
+void PassiveCovariance::forWaiting(Self& self, const Action& action) {
+    for (auto* queue : {&self.near_and_far_, &self.two_far_})
+        for (auto& term : queue->terms) action(term, &term == &queue->terms.front() ? queue : nullptr);
+    if (self.gathered_ > 0) action(self.gathering_, nullptr);
 }
 
 Matrix2 PassiveCovariance::covariance(int s, int row, int t, int column) const {
@@ -121,7 +118,7 @@ Matrix2 PassiveCovariance::covariance(int s, int row, int t, int column) const {
     const Eigen::MatrixXd& Z = block(s, t);
     Matrix2 out = Matrix2::Zero();
     if (row < Z.rows() && column < Z.cols()) out = Z.block<2, 2>(row, column);
-    forWaiting([&](const WaitingTerm& term, const Queue* adding) {
+    forWaiting(*this, [&](const WaitingTerm& term, const Queue* adding) {
         if (!term.touches(s, t) || (adding != nullptr && adding->added(s, t))) return;
         if (row < term.width(s) && column < term.width(t))
             out += term.left(s, {row, row + 1}) * term.part(t).F.middleCols<2>(column);
@@ -139,19 +136,26 @@ void PassiveCovariance::drop(int tile, const std::vector<int>& kept) {
         if (other <= tile) Z = Eigen::MatrixXd(Z(Eigen::all, stored));
         if (other >= tile) Z = Eigen::MatrixXd(Z(stored, Eigen::all));
     }
-    forWaiting([&](WaitingTerm& term, const Queue*) { term.dropColumns(tile, kept); });
+    forWaiting(*this, [&](WaitingTerm& term, const Queue*) { term.dropColumns(tile, kept); });
 }
 
 double PassiveCovariance::longestStd() const {
     double variance = 0;
-    for (int t = 0; t < tileCount(); ++t)
-        if (block(t, t).size() > 0) variance = std::max(variance, block(t, t).diagonal().maxCoeff());
+    for (int t = 0; t < tileCount(); ++t) {
+        Eigen::VectorXd own = block(t, t).diagonal();
+        if (own.size() == 0) continue;
+        forWaiting(*this, [&](const WaitingTerm& term, const Queue* adding) {
+            if (!term.touches(t, t) || (adding != nullptr && adding->added(t, t))) return;
+            own.head(term.width(t)) += term.part(t).F.cwiseAbs2().transpose() * term.scale;
+        });
+        variance = std::max(variance, own.maxCoeff());
+    }
     return std::sqrt(variance);
 }
 
 int PassiveCovariance::waiting() const {
     int count = 0;
-    forWaiting([&count](const WaitingTerm&, const Queue*) { ++count; });
+    forWaiting(*this, [&count](const WaitingTerm&, const Queue*) { ++count; });
     return count;
 }
 
@@ -159,7 +163,7 @@ std::size_t PassiveCovariance::memory() const {
     Eigen::Index numbers = 0;
     for (const auto& row : blocks_)
         for (const Eigen::MatrixXd& Z : row) numbers += Z.size();
-    forWaiting([&numbers](const WaitingTerm& term, const Queue*) {
+    forWaiting(*this, [&numbers](const WaitingTerm& term, const Queue*) {
         for (const WaitingTerm::Part& part : term.parts) numbers += part.F.size();
     });
     return sizeof(double) * static_cast<std::size_t>(numbers);
@@ -177,7 +181,7 @@ PassiveCovariance::Rows::Rows(const PassiveCovariance& covariance, const std::ve
             group->coordinates.push_back(first + k);
         }
     }
-    covariance.forWaiting([this](const WaitingTerm& term, const Queue* adding) {
+    forWaiting(covariance, [this](const WaitingTerm& term, const Queue* adding) {
         for (std::size_t g = 0; g < groups_.size(); ++g) {
             const auto& [tile, rows, coordinates] = groups_[g];
             if (term.width(tile) == 0) continue;

@@ -72,19 +72,19 @@ Eigen::MatrixXd PassiveMap::withTurned(const Eigen::MatrixXd& proper) const {
 }
 
 Eigen::MatrixXd PassiveMap::rowsProper(const Eigen::MatrixXd& rows) const {
-    return turning_ ? Eigen::MatrixXd(rows(Eigen::seq(0, Eigen::last, 2), Eigen::all)) : rows;
+    return turning_ ? firstOfPairs(rows) : rows;
 }
 
 PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
-    std::vector<char> far(tiles_.size());
-    bool come_near = false;
-    for (int t = 0; t < tileCount(); ++t) far[static_cast<std::size_t>(t)] = tile(t).far;
-    for (const BlockId id : landmarks) {
-        const int t = find(id).tile;
-        come_near |= tile(t).far;
-        far[static_cast<std::size_t>(t)] = 0;
+    // Landmarks of far tiles: all around them comes near, since more will be asked for.
+    std::vector<Vector2> places;
+    for (const BlockId id : landmarks)
+        if (tile(find(id).tile).far) places.push_back(tile(find(id).tile).centre());
+    if (!places.empty()) {
+        std::vector<char> far = farFrom(places);
+        for (int t = 0; t < tileCount(); ++t) far[static_cast<std::size_t>(t)] &= tile(t).far ? 1 : 0;
+        regroup(far);
     }
-    if (come_near) regroup(far);
 
     const int columns = 2 * static_cast<int>(landmarks.size());
     Taken taken;
@@ -118,6 +118,16 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
 void PassiveMap::remove(BlockId landmark) {
     const Address address = find(landmark);
     drop(address.tile, {address.index});
+}
+
+void PassiveMap::clear() {
+    for (int t = 0; t < tileCount(); ++t) {
+        tile(t) = {};
+        covariance_.clearTile(t);
+    }
+    group_ = {};
+    group_.parts.resize(tiles_.size());
+    q_ = 0;
 }
 
 void PassiveMap::drop(int t, const std::vector<int>& gone) {
@@ -155,6 +165,7 @@ PassiveMap::Census PassiveMap::census() const {
     }
     out.directions = group_.rank();
     out.waiting = covariance_.waiting();
+    out.added_terms = covariance_.added();
     out.regroupings = regroupings_;
     return out;
 }

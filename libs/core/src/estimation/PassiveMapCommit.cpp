@@ -1,6 +1,4 @@
 // A new base for a PassiveMap, and landmarks that are put away.
-#include <cmath>
-
 #include "slamot/core/estimation/PassiveMap.h"
 
 namespace slamot {

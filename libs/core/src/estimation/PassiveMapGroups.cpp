@@ -1,4 +1,5 @@
 // Which tiles of a PassiveMap are near, and what is known of the others together.
+#include <algorithm>
 #include <cmath>
 
 #include "slamot/core/estimation/PassiveMap.h"
@@ -11,6 +12,7 @@ namespace {
 /// that could bring a landmark of one within reach.
 constexpr double far_distance = 5.0;
 constexpr double regroup_after = 2.0;
+constexpr double latest = 1.25;  // of that, whatever else there is to do
 /// Directions that carry less than this part of a standard deviation, in the root mean square over all
 /// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
 /// much.
@@ -28,27 +30,32 @@ double PassiveMap::negligibleLength() const {
     return tolerance * landmark_std_ * std::sqrt(2.0 * size());
 }
 
-bool PassiveMap::follow(const Vector2& robot, double reach) {
-    robot_ = robot;
-    reach_ = reach;
-    if ((robot - grouped_at_).norm() < regroup_after * reach && regroupings_ > 0) return false;
+std::vector<char> PassiveMap::farFrom(const std::vector<Vector2>& places) const {
     std::vector<char> far(tiles_.size());
-    bool any = false;
     for (int t = 0; t < tileCount(); ++t) {
         if (!used(t)) continue;
-        const bool is_far = (tile(t).centre() - robot).norm() > far_distance * reach;
-        far[static_cast<std::size_t>(t)] = is_far;
-        any |= is_far || tile(t).far;
+        const Vector2 centre = tile(t).centre();
+        far[static_cast<std::size_t>(t)] = std::all_of(
+            places.begin(), places.end(),
+            [&](const Vector2& place) { return (centre - place).norm() > far_distance * reach_; });
     }
-    if (!any) return false;
+    return far;
+}
+
+void PassiveMap::follow(const Vector2& robot, double reach, bool busy) {
+    reach_ = reach;
+    if (size() == 0) return;
+    if (grouped_at_ && (robot - *grouped_at_).norm() < regroup_after * reach * (busy ? latest : 1)) return;
     grouped_at_ = robot;
-    regroup(far);
-    return true;
+    const std::vector<char> far = farFrom({robot});
+    bool any = false;
+    for (int t = 0; t < tileCount(); ++t)
+        any |= used(t) && (far[static_cast<std::size_t>(t)] != 0 || tile(t).far);
+    if (any) regroup(far);
 }
 
 void PassiveMap::regroup(const std::vector<char>& far) {
     ++regroupings_;
-    landmark_std_ = covariance_.longestStd();
 
     FarGroup next;
     next.parts.resize(tiles_.size());
@@ -77,7 +84,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
         M.middleCols(columns, tile(t).width()) = tile(t).X;
         columns += tile(t).width();
     }
-    const Eigen::MatrixXd K = turningBasis(M, negligibleLength(), columns);
+    const Eigen::MatrixXd K = turningBasis(M, negligibleLength());
     CutRows turned = stayed.times(K.leftCols(stayed.rank()));
     for (std::size_t i = 0; i < staying.size(); ++i) next.part(staying[i]).V.swap(turned[i]);
     columns = stayed.rank();
@@ -95,6 +102,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
     const WaitingTerm two_far = group_.aboutTwoFar(negligible * landmark_std_ * landmark_std_);
     covariance_.addWaiting(group_.takeNearAndFar(), two_far);
     std::swap(group_, next);
+    landmark_std_ = covariance_.longestStd();
 }
 
 }  // namespace slamot

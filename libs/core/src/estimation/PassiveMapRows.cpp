@@ -53,7 +53,7 @@ void PassiveMap::addFarRows(const PassiveCovariance::Rows& rows, const Eigen::Ma
     CutRowsView left_over;
     for (const Eigen::MatrixXd& part : rest) left_over.push_back(&part);
     const OrthonormalRows orthonormal(proper, left_over, negligibleLength());
-    const Eigen::MatrixXd K = turningBasis(orthonormal.W(), negligibleLength(), orthonormal.rank());
+    const Eigen::MatrixXd K = turningBasis(orthonormal.W(), negligibleLength());
     const CutRows directions = orthonormal.times(K);
     group_.extend(static_cast<int>(K.rows()));
     for (std::size_t i = 0; i < far.size(); ++i) group_.part(far[i]).V.bottomRows(K.rows()) = directions[i];

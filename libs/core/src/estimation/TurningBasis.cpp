@@ -17,10 +17,6 @@ Eigen::MatrixXd onPairs(const Eigen::MatrixXcd& T) {
     return out;
 }
 
-Eigen::MatrixXd firstOfPairs(const Eigen::MatrixXd& rows) {
-    return rows(Eigen::seqN(0, rows.rows() / 2, 2), Eigen::all);
-}
-
 /// A B^t summed over parts, for rows in pairs: the first row of each pair says all.
 Eigen::MatrixXd gram(const CutRowsView& A, const CutRowsView& B) {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(A.front()->rows() / 2, B.front()->rows());
@@ -94,21 +90,25 @@ Eigen::MatrixXd withTurnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     return out;
 }
 
-Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance, int largest) {
+Eigen::MatrixXd firstOfPairs(const Eigen::MatrixXd& rows) {
+    return rows(Eigen::seqN(0, rows.rows() / 2, 2), Eigen::all);
+}
+
+Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance) {
     // Gram-Schmidt with the longest remaining row first, each pivot orthogonalised twice. The other rows
     // follow in panels of pivots; within one their lengths are told by what was taken out.
     constexpr int panel = 32;
     constexpr double told = 1e-6;  // of the longest squared length at the panel's beginning
-    Eigen::MatrixXd basis(largest, rows.cols()), along(rows.rows(), panel);
-    int rank = 0;
-    while (rows.rows() > 0) {
+    const Eigen::Index all = rows.cols();
+    Eigen::MatrixXd basis(std::min(all, 2 * rows.rows()), all), along(rows.rows(), panel);
+    Eigen::Index rank = 0;
+    while (rows.rows() > 0 && rank < basis.rows()) {
         Eigen::VectorXd squared = rows.rowwise().squaredNorm();
         const double enough = std::max(tolerance * tolerance, told * squared.maxCoeff());
-        const int start = rank;
+        const Eigen::Index start = rank;
         Eigen::Index longest = 0;
-        while (rank - start < panel && squared.maxCoeff(&longest) > enough) {
-            if (rank + 2 > largest) return Eigen::MatrixXd(0, rows.cols());
-            const int taken = rank - start;
+        while (rank - start < panel && rank < basis.rows() && squared.maxCoeff(&longest) > enough) {
+            const Eigen::Index taken = rank - start;
             const auto found = basis.topRows(rank);
             Eigen::RowVectorXd pivot = rows.row(longest);
             pivot -= along.row(longest).head(taken) * found.bottomRows(taken);

@@ -19,7 +19,7 @@ struct ActiveSetParameters {
     double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
     double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
     double retirable_part = 0.1;   ///< commit when this part of the active landmarks is out of reach
-    int keep_at_least = 40;        ///< active landmarks; with fewer nothing is put away
+    int keep_at_least = 40;        ///< active landmarks, unless the base grows too large
 };
 
 /// The table `[name]`.

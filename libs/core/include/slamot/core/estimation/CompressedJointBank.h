@@ -25,6 +25,7 @@ class CompressedJointBank : public JointBank {
     CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
                         int modes = 1, const ActiveSetParameters& policy = {});
     CompressedJointBank(const CompressedJointBank& other);
+    CompressedJointBank& operator=(const CompressedJointBank&) = delete;
 
     using JointBank::augment;
     std::unique_ptr<JointBank> clone() const override { return std::make_unique<CompressedJointBank>(*this); }
@@ -72,6 +73,8 @@ class CompressedJointBank : public JointBank {
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
+    /// Marginalises beta out, when nothing is away.
+    void removeBase();
     /// Commits the landmarks out of reach, if they are worth it.
     void retire(const Mode& mode, const std::vector<BlockId>& measured, const ModeWeights& weights);
     /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `merged` is

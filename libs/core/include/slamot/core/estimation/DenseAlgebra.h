@@ -17,10 +17,6 @@ void solveLowerTransposedFromRight(const MatrixIn& L, MatrixOut W);
 
 /// C <- A B.
 void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
-/// C <- A^t B.
-void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
-/// C += A B.
-void addProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
 /// C += A^t B.
 void addTransposedProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
 

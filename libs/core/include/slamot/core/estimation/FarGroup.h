@@ -8,12 +8,15 @@
 
 namespace slamot {
 
-/// The far tiles of a PassiveMap: B_t = W V_t for a far tile t, V having orthonormal rows in pairs, the
-/// second turned by a quarter turn. What commits have added to the covariances waits here:
+/// The far tiles of a PassiveMap: B_t = W V_t for a far tile t, V having rows in pairs, the second turned by
+/// a quarter turn. They are orthonormal when the group is made, to half the digits, and less so when
+/// landmarks have left; what W V says is exact in any case. What commits have added to the covariances waits
+/// here:
 ///
 ///   P_st += V_s^t zeta V_t for far s and t,   P_st += C_s V_t for near s.
 struct FarGroup {
-    /// A tile as it stood when the group was made; landmarks that joined it later are not part of it.
+    /// A tile. Far ones are as when the group was made, but for landmarks that left; near ones gain rows of C
+    /// with every landmark.
     struct Part {
         bool far = false;
         Eigen::MatrixXd V;  ///< far: rank x width
@@ -25,7 +28,6 @@ struct FarGroup {
     Eigen::VectorXd shift;    ///< b0_t += V_t^t shift waits as well
 
     int rank() const { return static_cast<int>(W.cols()); }
-    bool far(int tile) const { return tile < static_cast<int>(parts.size()) && part(tile).far; }
     const Part& part(int tile) const { return parts[static_cast<std::size_t>(tile)]; }
     Part& part(int tile) { return parts[static_cast<std::size_t>(tile)]; }
 

@@ -2,7 +2,6 @@
 // P_bb0 of the landmarks that a PassiveMap has put away: a block for every pair of tiles, and terms of low
 // rank that are still to be added to them (doc/maths/compressed_engine.md). They are added in slices, step by
 // step; who asks for a covariance before gets it with what is waiting.
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -33,10 +32,10 @@ class PassiveCovariance {
     Matrix2 covariance(int s, int row, int t, int column) const;
     /// Keeps these coordinates of the tile.
     void drop(int tile, const std::vector<int>& kept);
-    /// Longest standard deviation of a landmark, roughly.
+    /// Longest standard deviation of a landmark, with what is waiting.
     double longestStd() const;
 
-    /// Rows of P_bb0 for a few landmarks, two each.
+    /// Rows of P_bb0 for a few landmarks, two each; until the covariance changes next.
     class Rows {
       public:
         struct Landmark {
@@ -64,18 +63,20 @@ class PassiveCovariance {
         std::vector<Left> left_;
     };
 
-    /// Terms that wait.
+    /// Terms that wait, and terms that have been added since the beginning.
     int waiting() const;
+    std::int64_t added() const { return added_; }
     std::size_t memory() const;
 
   private:
     /// Terms, the oldest being added to blocks pair by pair of tiles.
     struct Queue {
         std::deque<WaitingTerm> terms;
-        int s = 0, t = 0;    ///< the next pair, s <= t
-        double pending = 0;  ///< multiplications left
-        double per_step = 0;
-        std::int64_t steps = 0;  ///< since the last term came
+        int s = 0, t = 0;            ///< the next pair, s <= t
+        double pending = 0;          ///< multiplications left
+        double pending_at_push = 0;  ///< when the last term came
+        double interval = 0;         ///< [steps] in which the next term is expected
+        std::int64_t steps = 0;      ///< since the last term came
 
         bool added(int a, int b) const;  ///< the oldest term to this pair
     };
@@ -92,15 +93,14 @@ class PassiveCovariance {
     void push(Queue& queue, WaitingTerm term);
     void work(Queue& queue, double multiplications);
     /// action(term, the queue whose oldest it is, else null) for all that wait.
-    template <class Action>
-    void forWaiting(const Action& action) const;
-    template <class Action>
-    void forWaiting(const Action& action);
+    template <class Self, class Action>
+    static void forWaiting(Self& self, const Action& action);
 
     std::vector<std::vector<Eigen::MatrixXd>> blocks_;  ///< [t][s], s <= t; zero beyond its size
     Queue near_and_far_, two_far_;
     WaitingTerm gathering_;  ///< the next term of two_far_, from several groups
     int gathered_ = 0;       ///< its rows that are taken
+    std::int64_t added_ = 0;
 };
 
 }  // namespace slamot

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,13 +58,15 @@ class PassiveMap {
         Eigen::MatrixXd root;  ///< (P_cc0 - U_c^t U_c)^1/2: their formal covariance with the new rows proper
         int new_rows = 0;      ///< by which the base has grown, at its end
     };
-    /// What the rows proper, U, of the base do not say of their covariances P_cr0 with the landmarks that
-    /// stay, P_cr0 - U_c^t U_r, becomes rows at the end of the base, whitened; where rows come in pairs, each
-    /// is followed by its turned one.
+    /// Landmarks that differ from one another. What the rows proper, U, of the base do not say of their
+    /// covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at the end of the
+    /// base, whitened; where rows come in pairs, each is followed by its turned one.
     Taken take(const std::vector<BlockId>& landmarks);
 
     /// Forgets a landmark.
     void remove(BlockId landmark);
+    /// Forgets the base, when nothing is here.
+    void clear();
 
     /// A new base, and landmarks that are put away.
     struct Commit {
@@ -80,8 +83,9 @@ class PassiveMap {
     void commit(const Commit& commit);
 
     /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
-    /// the robot has moved far enough; says whether it did.
-    bool follow(const Vector2& robot, double reach);
+    /// the robot has moved far enough; in a step that is `busy` with a commit or an activation only when it
+    /// cannot wait.
+    void follow(const Vector2& robot, double reach, bool busy);
 
     /// One step's part of the work on covariances that wait.
     void step() { covariance_.step(); }
@@ -90,7 +94,7 @@ class PassiveMap {
     std::size_t memory() const;
     struct Census {
         int tiles = 0, near = 0, near_columns = 0, columns = 0, directions = 0, waiting = 0;
-        std::int64_t regroupings = 0;
+        std::int64_t regroupings = 0, added_terms = 0;
     };
     Census census() const;
     std::int64_t regroupings() const { return regroupings_; }
@@ -118,6 +122,8 @@ class PassiveMap {
     /// The base's rows, of its rows proper and the other way round.
     Eigen::MatrixXd withTurned(const Eigen::MatrixXd& proper) const;
     Eigen::MatrixXd rowsProper(const Eigen::MatrixXd& rows) const;
+    /// far[t] where the tile's centre is far from all these places.
+    std::vector<char> farFrom(const std::vector<Vector2>& places) const;
 
     /// The two coordinates of each landmark of a tile.
     static std::vector<int> coordinatesOf(const std::vector<int>& landmarks);
@@ -144,7 +150,7 @@ class PassiveMap {
     int size_ = 0;
     PassiveCovariance covariance_;  ///< without what waits in group_
     FarGroup group_;
-    Vector2 robot_ = Vector2::Zero(), grouped_at_ = Vector2::Zero();
+    std::optional<Vector2> grouped_at_;  ///< where the robot was
     double reach_ = std::numeric_limits<double>::infinity();
     double landmark_std_ = 0;  ///< what tolerances refer to
     std::int64_t regroupings_ = 0;

@@ -11,9 +11,12 @@ Eigen::MatrixXd turnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows);
 /// Every row followed by its turned one.
 Eigen::MatrixXd withTurnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows);
 
+/// The first row of every pair.
+Eigen::MatrixXd firstOfPairs(const Eigen::MatrixXd& rows);
+
 /// Orthonormal rows that span `rows` to within `tolerance` (the length of what is left of any row), closed
-/// under the quarter turn. Gives up and returns no rows beyond `largest`.
-Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance, int largest);
+/// under the quarter turn.
+Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance);
 
 /// Rows over many points, cut into parts of some of the points each.
 using CutRows = std::vector<Eigen::MatrixXd>;
