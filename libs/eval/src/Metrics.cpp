@@ -35,6 +35,10 @@ Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptio
     metrics.landmark_set = landmarkSetDistance(run, truth, options);
     metrics.targets = targetMetrics(run, truth, options);
     metrics.track_set = trackSetDistance(run, truth, options);
+    metrics.association = associationMetrics(run, truth);
+    metrics.map_cardinality = mapCardinality(run, truth);
+    metrics.tracking = trackingMetrics(sceneOfAllTargets(run, truth, options), options);
+    metrics.tracking_seen = trackingMetrics(sceneOfSeenTargets(run, truth, options), options);
     return metrics;
 }
 

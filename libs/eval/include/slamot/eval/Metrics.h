@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "slamot/eval/Association.h"
 #include "slamot/eval/Consistency.h"
 #include "slamot/eval/Landmarks.h"
 #include "slamot/eval/Nis.h"
 #include "slamot/eval/Options.h"
 #include "slamot/eval/SetDistance.h"
+#include "slamot/eval/Tracking.h"
 #include "slamot/eval/Tracks.h"
 #include "slamot/eval/Trajectory.h"
 
@@ -26,6 +28,10 @@ struct Metrics {
     Measured<SetDistance> landmark_set;
     Measured<TargetMetrics> targets;
     Measured<TrackSetDistance> track_set;
+    Measured<AssociationMetrics> association;
+    Measured<MapCardinality> map_cardinality;
+    /// Against every target, and against targets while they are seen.
+    Measured<TrackingMetrics> tracking, tracking_seen;
 };
 
 Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptions& options);
