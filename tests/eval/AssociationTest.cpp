@@ -1,10 +1,9 @@
-#include "slamot/eval/Association.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Builders.h"
+#include "slamot/eval/Association.h"
 #include "slamot/eval/Landmarks.h"
 
 namespace slamot::eval {
@@ -43,8 +42,8 @@ class Log {
 
 TEST(Association, ByHand) {
     Log log;
-    // Landmark 0 takes three detections of source 5, one of source 6 and one of clutter; source 5 has one more,
-    // rejected, and one that started landmark 1, which nothing else went to.
+    // Landmark 0 takes three detections of source 5, one of source 6 and one of clutter; source 5 has one
+    // more, rejected, and one that started landmark 1, which nothing else went to.
     log.landmark(5).toLandmark(0, Outcome::initiated);
     log.landmark(5).toLandmark(0);
     log.landmark(6).toLandmark(0, Outcome::inflated);
@@ -76,8 +75,8 @@ TEST(Association, ByHand) {
 
 TEST(Association, TiesGoToTheFirst) {
     Log log;
-    // Landmark 0 has one of source 6, then one of source 5: it stands for 6. Source 6 has one in landmark 0 and
-    // one in landmark 1, which stands for it too: it is found in 0.
+    // Landmark 0 has one of source 6, then one of source 5: it stands for 6. Source 6 has one in landmark 0
+    // and one in landmark 1, which stands for it too: it is found in 0.
     log.landmark(6).toLandmark(0);
     log.landmark(5).toLandmark(0);
     log.landmark(6).toLandmark(1);
@@ -105,9 +104,8 @@ TEST(Association, DetectionsAreFoundByTheirNumber) {
     }
     run.innovations.push_back(innovation(1, "s", ObjectKind::mover, Outcome::updated, 1, 11));
     Truth truth;
-    truth.associations = {{at(0), 0, "mover", SourceId{0}},
-                          {at(0), 1, "mover", SourceId{1}},
-                          {at(1), 0, "mover", SourceId{1}}};
+    truth.associations = {
+        {at(0), 0, "mover", SourceId{0}}, {at(0), 1, "mover", SourceId{1}}, {at(1), 0, "mover", SourceId{1}}};
     EXPECT_EQ(associationMetrics(run, truth)->all.found, 3);
 }
 
@@ -131,10 +129,12 @@ TEST(Association, SaysWhatIsMissing) {
     log.landmark(5).toLandmark(0);
     Truth other = log.truth;
     other.associations[0].stamp = at(77);
-    EXPECT_EQ(associationMetrics(log.run, other).whyAbsent(), "truth has no association of any detection of the run");
+    EXPECT_EQ(associationMetrics(log.run, other).whyAbsent(),
+              "truth has no association of any detection of the run");
     log.truth.associations.push_back({at(0), 1, "clutter", SourceId{}});
-    EXPECT_EQ(associationMetrics(log.run, log.truth).whyAbsent(),
-              "the run took in fewer detections than truth has at every stamp, so that their numbers do not fit");
+    EXPECT_EQ(
+        associationMetrics(log.run, log.truth).whyAbsent(),
+        "the run took in fewer detections than truth has at every stamp, so that their numbers do not fit");
     log.run.innovations.clear();
     EXPECT_EQ(associationMetrics(log.run, log.truth).whyAbsent(), "the run has no innovations");
 }

@@ -122,10 +122,14 @@ TEST(SummaryTable, FitsEightyColumnsWithAllAndWithNothing) {
     EXPECT_THAT(full, HasSubstr("Robot: 11 of the 11 estimates within truth's span matched; 11 in all."));
     EXPECT_THAT(full, HasSubstr("targets, while seen [m]"));
     EXPECT_THAT(full, HasSubstr("Landmarks in the map: 1, +0 against all, +1 against those seen."));
-    EXPECT_THAT(full, HasSubstr("movers                            100.0 %  100.0 %        1        1        0\n"));
-    EXPECT_THAT(full, HasSubstr("all targets                       100.0 %        2        0        0        0\n"));
-    EXPECT_THAT(full, HasSubstr("targets while seen                100.0 %  100.0 %  100.0 %        0      1/0\n"));
-    EXPECT_THAT(full, HasSubstr("all targets                             2        0    exact        0        0\n"));
+    EXPECT_THAT(full,
+                HasSubstr("movers                            100.0 %  100.0 %        1        1        0\n"));
+    EXPECT_THAT(full,
+                HasSubstr("all targets                       100.0 %        2        0        0        0\n"));
+    EXPECT_THAT(full,
+                HasSubstr("targets while seen                100.0 %  100.0 %  100.0 %        0      1/0\n"));
+    EXPECT_THAT(full,
+                HasSubstr("all targets                             2        0    exact        0        0\n"));
     EXPECT_THAT(full, testing::Not(HasSubstr("No ")));
     const std::string nothing = summaryTable(evaluate({}, {}, {}));
     expectNarrow(nothing);

@@ -1,10 +1,9 @@
-#include "slamot/eval/Tracking.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "Builders.h"
+#include "slamot/eval/Tracking.h"
 
 namespace slamot::eval {
 namespace {
@@ -12,7 +11,8 @@ namespace {
 constexpr double gate = 1;
 
 /// Targets and tracks on a line; an absent one is left out of the braces.
-SceneFrame frame(double t, std::vector<std::pair<int, double>> targets, std::vector<std::pair<int, double>> tracks) {
+SceneFrame frame(double t, std::vector<std::pair<int, double>> targets,
+                 std::vector<std::pair<int, double>> tracks) {
     SceneFrame f{at(t), {}, {}};
     for (const auto& [index, x] : targets) f.targets.push_back({index, {x, 0}});
     for (const auto& [index, x] : tracks) f.tracks.push_back({index, {x, 0}});
@@ -28,15 +28,15 @@ TrackingScene scene(int targets, int tracks, std::vector<SceneFrame> frames) {
 }
 
 TEST(ClearMot, ByHand) {
-    // Target 0 at 0 m for 5 stamps, target 1 at 10 m for the last 3. Track 0 follows target 0 at 0.5 m, is out
-    // of the gate at the third stamp, then track 1 takes over at 0.25 m; a false track at 50 m at the first.
-    const ClearMot m = clearMot(scene(2, 3,
-                                      {frame(0, {{0, 0}}, {{0, 0.5}, {2, 50}}),
-                                       frame(1, {{0, 0}}, {{0, 0.5}}),
-                                       frame(2, {{0, 0}, {1, 10}}, {{0, 1.5}}),
-                                       frame(3, {{0, 0}, {1, 10}}, {{1, 0.25}}),
-                                       frame(4, {{0, 0}, {1, 10}}, {{1, 0.25}})}),
-                                gate);
+    // Target 0 at 0 m for 5 stamps, target 1 at 10 m for the last 3. Track 0 follows target 0 at 0.5 m, is
+    // out of the gate at the third stamp, then track 1 takes over at 0.25 m; a false track at 50 m at the
+    // first.
+    const ClearMot m =
+        clearMot(scene(2, 3,
+                       {frame(0, {{0, 0}}, {{0, 0.5}, {2, 50}}), frame(1, {{0, 0}}, {{0, 0.5}}),
+                        frame(2, {{0, 0}, {1, 10}}, {{0, 1.5}}), frame(3, {{0, 0}, {1, 10}}, {{1, 0.25}}),
+                        frame(4, {{0, 0}, {1, 10}}, {{1, 0.25}})}),
+                 gate);
     EXPECT_EQ(m.target_stamps, 8);
     EXPECT_EQ(m.matched, 4);
     EXPECT_EQ(m.misses, 4);           // target 0 once, target 1 three times
@@ -63,10 +63,10 @@ TEST(ClearMot, KeepsACorrespondenceThatHoldsThoughAnotherIsNearer) {
 }
 
 TEST(ClearMot, CountsAnExchangeOfTwoTracksTwice) {
-    const ClearMot m = clearMot(scene(2, 2,
-                                      {frame(0, {{0, 0}, {1, 5}}, {{0, 0}, {1, 5}}),
-                                       frame(1, {{0, 0}, {1, 5}}, {{1, 0}, {0, 5}})}),
-                                gate);
+    const ClearMot m = clearMot(
+        scene(2, 2,
+              {frame(0, {{0, 0}, {1, 5}}, {{0, 0}, {1, 5}}), frame(1, {{0, 0}, {1, 5}}, {{1, 0}, {0, 5}})}),
+        gate);
     EXPECT_EQ(m.switches, 2);
     EXPECT_EQ(m.misses + m.false_positives, 0);
     EXPECT_EQ(m.fragmentations, 0);
@@ -120,13 +120,14 @@ TEST(IdentityScores, ByHand) {
 }
 
 TEST(IdentityScores, AssignsWholeTracksAtTheMostStampsTogether) {
-    // Track 0 is 3 stamps with target 0 and 2 with target 1, track 1 is 2 with target 0 and none with target 1:
-    // pairs 0-1 and 1-0 have 4 stamps, 0-0 alone 3.
-    const auto s = identityScores(scene(2, 2,
-                                        {frame(0, {{0, 0}, {1, 0}}, {{0, 0}}), frame(1, {{0, 0}, {1, 0}}, {{0, 0}}),
-                                         frame(2, {{0, 0}, {1, 9}}, {{0, 0}}), frame(3, {{0, 0}, {1, 9}}, {{1, 0}}),
-                                         frame(4, {{0, 0}, {1, 9}}, {{1, 0}})}),
-                                  gate);
+    // Track 0 is 3 stamps with target 0 and 2 with target 1, track 1 is 2 with target 0 and none with target
+    // 1: pairs 0-1 and 1-0 have 4 stamps, 0-0 alone 3.
+    const auto s =
+        identityScores(scene(2, 2,
+                             {frame(0, {{0, 0}, {1, 0}}, {{0, 0}}), frame(1, {{0, 0}, {1, 0}}, {{0, 0}}),
+                              frame(2, {{0, 0}, {1, 9}}, {{0, 0}}), frame(3, {{0, 0}, {1, 9}}, {{1, 0}}),
+                              frame(4, {{0, 0}, {1, 9}}, {{1, 0}})}),
+                       gate);
     EXPECT_EQ(s.true_positives, 4);
     EXPECT_DOUBLE_EQ(s.idf1, 8.0 / (10 + 5));
 }
@@ -141,17 +142,17 @@ TEST(IdentityScores, MoreTracksWithoutATargetDoNotCostTruePositives) {
 
 TEST(CardinalityError, OverStamps) {
     // Errors +2, -1, 0, 0.
-    const CardinalityError e = cardinalityError(
-        scene(1, 3,
-              {frame(0, {}, {{0, 0}, {1, 0}}), frame(1, {{0, 0}}, {}), frame(2, {}, {}), frame(3, {{0, 0}}, {{2, 9}})}));
+    const CardinalityError e = cardinalityError(scene(1, 3,
+                                                      {frame(0, {}, {{0, 0}, {1, 0}}), frame(1, {{0, 0}}, {}),
+                                                       frame(2, {}, {}), frame(3, {{0, 0}}, {{2, 9}})}));
     EXPECT_DOUBLE_EQ(e.mean, 0.25);
     EXPECT_DOUBLE_EQ(e.mean_absolute, 0.75);
     EXPECT_DOUBLE_EQ(e.mean_targets, 0.5);
     EXPECT_DOUBLE_EQ(e.mean_tracks, 0.75);
 }
 
-/// Target 7 for 5 stamps of 1 s, detected at 1, 2 and 3 s; target 8 never detected. Track 3 on target 7 for all
-/// stamps, track 4 on target 8, track 5 on nothing.
+/// Target 7 for 5 stamps of 1 s, detected at 1, 2 and 3 s; target 8 never detected. Track 3 on target 7 for
+/// all stamps, track 4 on target 8, track 5 on nothing.
 struct Scene {
     RunRecord run;
     Truth truth;

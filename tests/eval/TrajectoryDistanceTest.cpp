@@ -1,5 +1,3 @@
-#include "slamot/eval/TrajectoryDistance.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "Builders.h"
 #include "slamot/core/random/RandomStream.h"
+#include "slamot/eval/TrajectoryDistance.h"
 
 namespace slamot::eval {
 namespace {
@@ -24,7 +23,8 @@ TrackingScene lines(const std::vector<Line>& targets, const std::vector<Line>& t
     for (std::size_t k = 0; k < targets.at(0).size(); ++k) {
         SceneFrame frame{at(static_cast<double>(k)), {}, {}};
         for (std::size_t i = 0; i < targets.size(); ++i)
-            if (!std::isnan(targets[i][k])) frame.targets.push_back({static_cast<int>(i), {targets[i][k], 0}});
+            if (!std::isnan(targets[i][k]))
+                frame.targets.push_back({static_cast<int>(i), {targets[i][k], 0}});
         for (std::size_t j = 0; j < tracks.size(); ++j)
             if (!std::isnan(tracks[j][k])) frame.tracks.push_back({static_cast<int>(j), {tracks[j][k], 0}});
         scene.frames.push_back(frame);
@@ -47,7 +47,8 @@ TEST(TrajectoryDistance, WithoutASwitchIsTheSumOfGospa) {
 
 TEST(TrajectoryDistance, ANewTrackIsASwitch) {
     // Track 0 for two stamps, then track 1: exact places, so the switch alone costs, gamma^p = 9.
-    const auto d = trajectoryDistance(lines({{0, 0, 0, 0}}, {{0, 0, none, none}, {none, none, 0, 0}}), 2, 5, 3);
+    const auto d =
+        trajectoryDistance(lines({{0, 0, 0, 0}}, {{0, 0, none, none}, {none, none, 0, 0}}), 2, 5, 3);
     EXPECT_DOUBLE_EQ(d.total, 3);
     EXPECT_EQ(d.switches, 1);
     EXPECT_DOUBLE_EQ(d.switch_part, 9.0 / 4);
@@ -87,8 +88,8 @@ TEST(TrajectoryDistance, EmptySets) {
     EXPECT_DOUBLE_EQ(trajectoryDistance(lines({{none, none}}, {{0, 0}}), 2, 5, 2).total, 5);
 }
 
-/// Straight from the definition: the shortest way through all assignments of all stamps, each assignment a list
-/// of the track of every target or -1.
+/// Straight from the definition: the shortest way through all assignments of all stamps, each assignment a
+/// list of the track of every target or -1.
 double byDefinition(const std::vector<Line>& targets, const std::vector<Line>& tracks, double p, double c,
                     double gamma) {
     const std::size_t n = targets.size(), m = tracks.size();
@@ -139,7 +140,8 @@ double byDefinition(const std::vector<Line>& targets, const std::vector<Line>& t
         std::vector<double> next(assignments.size(), std::numeric_limits<double>::infinity());
         for (std::size_t b = 0; b < assignments.size(); ++b) {
             for (std::size_t a = 0; a < assignments.size(); ++a)
-                next[b] = std::min(next[b], best[a] + (k == 0 ? 0 : switching(assignments[a], assignments[b])));
+                next[b] =
+                    std::min(next[b], best[a] + (k == 0 ? 0 : switching(assignments[a], assignments[b])));
             next[b] += cost_at(assignments[b], k);
         }
         best = next;
@@ -158,7 +160,8 @@ std::vector<Line> randomLines(RandomStream& random, std::size_t count, std::size
 TEST(TrajectoryDistance, IsThatOfItsDefinitionOnRandomSets) {
     for (std::uint32_t trial = 0; trial < 300; ++trial) {
         RandomStream random(7, RandomPurpose::test, 0, trial);
-        const std::size_t n = 1 + random.bits() % 3, m = 1 + random.bits() % 4, stamps = 1 + random.bits() % 8;
+        const std::size_t n = 1 + random.bits() % 3, m = 1 + random.bits() % 4,
+                          stamps = 1 + random.bits() % 8;
         const auto targets = randomLines(random, n, stamps), tracks = randomLines(random, m, stamps);
         const double p = 1 + static_cast<double>(random.bits() % 2), c = 3, gamma = 0.3 + 0.4 * (trial % 8);
         const auto d = trajectoryDistance(lines(targets, tracks), p, c, gamma);

@@ -30,7 +30,8 @@ std::optional<Object> objectOf(const Innovation& innovation) {
     return std::nullopt;
 }
 
-std::map<Stamp, std::map<int, const TrueAssociation*>> byStamp(const std::vector<TrueAssociation>& associations) {
+std::map<Stamp, std::map<int, const TrueAssociation*>> byStamp(
+    const std::vector<TrueAssociation>& associations) {
     std::map<Stamp, std::map<int, const TrueAssociation*>> result;
     for (const TrueAssociation& a : associations) result[a.stamp][a.index] = &a;
     return result;

@@ -1,11 +1,11 @@
 #include "Courses.h"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 
-#include "slamot/core/association/Assignment.h"
+#include "Matchings.h"
 
 namespace slamot::eval {
 namespace {
@@ -14,12 +14,6 @@ std::size_t placeOf(const CourseGroup& group, int object) {
     return static_cast<std::size_t>(std::lower_bound(group.objects.begin(), group.objects.end(), object) -
                                     group.objects.begin());
 }
-
-/// A gain by the places of its objects in the group.
-struct PlacedGain {
-    std::size_t target, track;
-    double saved;
-};
 
 void pay(Course& course, double half_switch) {
     course.value -= half_switch;
@@ -45,14 +39,14 @@ void assign(Course& course, const PlacedGain& pair, double half_switch) {
     track = static_cast<int>(pair.target);
 }
 
-double savedBy(const Course& course, const std::vector<PlacedGain>& gains) {
+double savedBy(const Course& course, const PairSet& gains) {
     double sum = 0;
     for (const PlacedGain& g : gains)
         if (course.partner[g.target] == static_cast<int>(g.track)) sum += g.saved;
     return sum;
 }
 
-void collect(Course& course, const std::vector<PlacedGain>& gains) {
+void collect(Course& course, const PairSet& gains) {
     for (const PlacedGain& g : gains)
         if (course.partner[g.target] == static_cast<int>(g.track)) {
             course.value += g.saved;
@@ -61,47 +55,64 @@ void collect(Course& course, const std::vector<PlacedGain>& gains) {
         }
 }
 
-/// The matching that saves most at this stamp.
-std::vector<PlacedGain> bestMatching(const std::vector<PlacedGain>& gains, std::size_t objects) {
-    if (gains.size() == 1) return gains;
-    const auto n = static_cast<Eigen::Index>(objects);
-    Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(n, n);
-    std::vector<std::vector<const PlacedGain*>> of(objects);
-    for (const PlacedGain& g : gains) {
-        cost(static_cast<Eigen::Index>(g.target), static_cast<Eigen::Index>(g.track)) = -g.saved;
-        of[g.target].push_back(&g);
-    }
-    const Assignment assignment = optimalAssignment(cost);
-    std::vector<PlacedGain> matching;
-    for (std::size_t i = 0; i < objects; ++i)
-        for (const PlacedGain* g : of[i])
-            if (assignment.column_of_row[i] == static_cast<int>(g->track)) matching.push_back(*g);
-    return matching;
+/// The gains in parts that share no object, nor the two objects of a pair the course has assigned: a change
+/// in one part touches no other.
+std::vector<PairSet> partsOf(const PairSet& gains, const Course& course) {
+    std::vector<std::size_t> root(course.partner.size());
+    for (std::size_t i = 0; i < root.size(); ++i) root[i] = i;
+    const auto find = [&root](std::size_t i) {
+        while (root[i] != i) i = root[i];
+        return i;
+    };
+    for (std::size_t i = 0; i < root.size(); ++i)
+        if (course.partner[i] >= 0) root[find(i)] = find(static_cast<std::size_t>(course.partner[i]));
+    for (const PlacedGain& g : gains) root[find(g.target)] = find(g.track);
+    std::map<std::size_t, PairSet> by_root;
+    for (const PlacedGain& g : gains) by_root[find(g.target)].push_back(g);
+    std::vector<PairSet> parts;
+    for (auto& [part, of_part] : by_root) parts.push_back(std::move(of_part));
+    return parts;
 }
 
-/// Every matching of the gains, the empty one left out; nothing if there are more than `most`.
-std::vector<std::vector<PlacedGain>> allMatchings(const std::vector<PlacedGain>& gains, std::size_t objects,
-                                                  std::size_t most) {
-    std::vector<std::vector<PlacedGain>> matchings;
-    std::vector<PlacedGain> chosen;
-    std::vector<bool> taken(objects, false);
-    bool too_many = false;
-    const std::function<void(std::size_t)> extend = [&](std::size_t from) {
-        for (std::size_t i = from; i < gains.size() && !too_many; ++i) {
-            const PlacedGain& g = gains[i];
-            if (taken[g.target] || taken[g.track]) continue;
-            chosen.push_back(g);
-            matchings.push_back(chosen);
-            too_many = matchings.size() > most;
-            taken[g.target] = taken[g.track] = true;
-            extend(i + 1);
-            taken[g.target] = taken[g.track] = false;
-            chosen.pop_back();
+/// What a course may change in one part at one stamp: the matchings that save more there than it does.
+struct PartChanges {
+    std::vector<PairSet> better;
+    PairSet best;
+    /// By how much the best may exceed what the course saves, if `better` is not all there is.
+    double gap = 0;
+    bool exhaustive = true;
+};
+
+std::vector<PartChanges> changesOf(const Course& course, const PairSet& gains, std::size_t most_matchings) {
+    std::vector<PartChanges> changes;
+    for (const auto& part : partsOf(gains, course)) {
+        PartChanges of_part;
+        of_part.best = bestMatching(part, course.partner.size());
+        const double saved = savedBy(course, part), rounding = 1e-12 * sumOf(part);
+        of_part.gap = sumOf(of_part.best) - saved;
+        // The solver's own steps (Assignment.h) are far below the rounding.
+        if (of_part.gap <= rounding) continue;
+        std::vector<PairSet> matchings = matchingsWithin(of_part.gap + rounding, part, of_part.best,
+                                                         course.partner.size(), most_matchings);
+        of_part.exhaustive = !matchings.empty();
+        if (!of_part.exhaustive) matchings = {of_part.best};
+        for (PairSet& matching : matchings) {
+            Course other = course;
+            for (const PlacedGain& g : matching) assign(other, g, 0);
+            if (savedBy(other, part) > saved) of_part.better.push_back(std::move(matching));
         }
-    };
-    extend(0);
-    if (too_many) matchings.clear();
-    return matchings;
+        changes.push_back(std::move(of_part));
+    }
+    // Every choice in one part goes with every one in another: where that is too many, the best of each.
+    double choices = 1;
+    for (const PartChanges& of_part : changes) choices *= 1.0 + static_cast<double>(of_part.better.size());
+    if (choices > static_cast<double>(most_matchings))
+        for (PartChanges& of_part : changes)
+            if (of_part.better.size() > 1) {
+                of_part.better = {of_part.best};
+                of_part.exhaustive = false;
+            }
+    return changes;
 }
 
 /// At most what it costs `from` to do from here on as `to` may do: pairs given up and made, and objects that
@@ -141,7 +152,8 @@ CourseGroup joined(const CourseGroup& a, const CourseGroup& b) {
     const auto copy = [](const Course& from, const std::vector<std::size_t>& place, Course& to) {
         for (std::size_t i = 0; i < place.size(); ++i) {
             const int partner = from.partner[i];
-            to.partner[place[i]] = partner < 0 ? partner : static_cast<int>(place[static_cast<std::size_t>(partner)]);
+            to.partner[place[i]] =
+                partner < 0 ? partner : static_cast<int>(place[static_cast<std::size_t>(partner)]);
         }
         to.value += from.value;
         to.saved += from.saved;
@@ -160,35 +172,32 @@ CourseGroup joined(const CourseGroup& a, const CourseGroup& b) {
 }
 
 // A course that already saves the most this stamp allows need not change now: whatever it might change to it
-// can change to later, at the same price. Of the changes of another course only those that save more at once
-// are worth holding.
+// can change to later, at the same price. Of the changes of another course only those that save more at once,
+// in each part they touch, are worth holding.
 double advance(CourseGroup& group, const std::vector<Gain>& gains, double half_switch,
                const TrajectorySearch& search) {
-    std::vector<PlacedGain> placed;
-    for (const Gain& g : gains) placed.push_back({placeOf(group, g.target), placeOf(group, g.track), g.saved});
-    const std::vector<PlacedGain> best = bestMatching(placed, group.objects.size());
-    double most_saved = 0, all = 0, missed = 0;
-    for (const PlacedGain& g : best) most_saved += g.saved;
-    for (const PlacedGain& g : placed) all += g.saved;
+    PairSet placed;
+    for (const Gain& g : gains)
+        placed.push_back({placeOf(group, g.target), placeOf(group, g.track), g.saved});
+    const double all = sumOf(placed);
 
-    std::vector<std::vector<PlacedGain>> matchings;
-    bool exhaustive = false;
+    double missed = 0;
     std::vector<Course> changed;
     for (const Course& course : group.courses) {
-        const double saved = savedBy(course, placed);
-        // The solver's own steps (Assignment.h) are far below 1e-12 of the sum.
-        if (saved >= most_saved - 1e-12 * all) continue;
-        if (matchings.empty()) {
-            matchings = allMatchings(placed, group.objects.size(), search.most_matchings);
-            exhaustive = !matchings.empty();
-            if (!exhaustive) matchings = {best};
+        if (savedBy(course, placed) == all) continue;
+        std::vector<Course> choices{course};
+        double gap = 0;
+        for (const PartChanges& of_part : changesOf(course, placed, search.most_matchings)) {
+            if (!of_part.exhaustive) gap += of_part.gap;
+            for (std::size_t i = 0, before = choices.size(); i < before; ++i)
+                for (const PairSet& matching : of_part.better) {
+                    Course other = choices[i];
+                    for (const PlacedGain& g : matching) assign(other, g, half_switch);
+                    choices.push_back(std::move(other));
+                }
         }
-        if (!exhaustive) missed = std::max(missed, most_saved - saved);
-        for (const auto& matching : matchings) {
-            Course other = course;
-            for (const PlacedGain& g : matching) assign(other, g, half_switch);
-            if (savedBy(other, placed) > saved) changed.push_back(std::move(other));
-        }
+        missed = std::max(missed, gap);
+        changed.insert(changed.end(), choices.begin() + 1, choices.end());
     }
     group.courses.insert(group.courses.end(), changed.begin(), changed.end());
     for (Course& course : group.courses) collect(course, placed);
@@ -210,10 +219,10 @@ void retire(CourseGroup& group, const std::vector<int>& objects) {
         for (std::size_t i = 0; i < leaves.size(); ++i) {
             if (leaves[i]) continue;
             const int old = course.partner[i];
-            partner[static_cast<std::size_t>(new_place[i])] =
-                old < 0 ? old
-                        : leaves[static_cast<std::size_t>(old)] ? static_cast<int>(Course::gone)
-                                                                : new_place[static_cast<std::size_t>(old)];
+            partner[static_cast<std::size_t>(new_place[i])] = old < 0 ? old
+                                                              : leaves[static_cast<std::size_t>(old)]
+                                                                  ? static_cast<int>(Course::gone)
+                                                                  : new_place[static_cast<std::size_t>(old)];
         }
         course.partner = std::move(partner);
     }

@@ -97,8 +97,7 @@ Measured<MapCardinality> mapCardinality(const RunRecord& run, const Truth& truth
     result.landmarks = static_cast<std::int64_t>(truth.landmarks.size());
     result.error = result.estimated - result.landmarks;
     if (truth.associations.empty() || run.trajectory.empty()) {
-        result.seen =
-            Seen::absent("truth has no associations, which would tell which landmarks were seen");
+        result.seen = Seen::absent("truth has no associations, which would tell which landmarks were seen");
         return result;
     }
     const Stamp begin = run.trajectory.front().stamp, end = run.trajectory.back().stamp;

@@ -137,7 +137,8 @@ Block associationBlock(const Metrics& m) {
 
 /// Both sets of targets under one head.
 template <class Cells>
-Block trackingBlock(const Metrics& m, const std::string& title, const std::vector<std::string>& heads, Cells cells) {
+Block trackingBlock(const Metrics& m, const std::string& title, const std::vector<std::string>& heads,
+                    Cells cells) {
     Block block(title, heads);
     if (m.tracking) block.row("all targets", cells(*m.tracking));
     if (m.tracking_seen) block.row("targets while seen", cells(*m.tracking_seen));
@@ -155,12 +156,13 @@ Block clearBlock(const Metrics& m) {
 }
 
 Block identityBlock(const Metrics& m) {
-    return trackingBlock(m, "Identities", {"IDF1", "IDP", "IDR", "fragm.", "tr./lost"}, [](const TrackingMetrics& t) {
-        return std::vector<std::string>{
-            percent(t.identity.idf1), percent(t.identity.precision), percent(t.identity.recall),
-            fmt::format("{}", t.clear.fragmentations),
-            fmt::format("{}/{}", t.clear.mostly_tracked, t.clear.mostly_lost)};
-    });
+    return trackingBlock(m, "Identities", {"IDF1", "IDP", "IDR", "fragm.", "tr./lost"},
+                         [](const TrackingMetrics& t) {
+                             return std::vector<std::string>{
+                                 percent(t.identity.idf1), percent(t.identity.precision),
+                                 percent(t.identity.recall), fmt::format("{}", t.clear.fragmentations),
+                                 fmt::format("{}/{}", t.clear.mostly_tracked, t.clear.mostly_lost)};
+                         });
 }
 
 Block trajectoryBlock(const Metrics& m) {
@@ -244,11 +246,11 @@ std::string summaryTable(const Metrics& m) {
                                 m.targets->matched, m.targets->missed, m.targets->without_truth,
                                 m.targets->without_source, m.targets->doubled));
     if (m.map_cardinality)
-        text += wrapped(fmt::format("Landmarks in the map: {}, {:+} against all{}.", m.map_cardinality->estimated,
-                                    m.map_cardinality->error,
-                                    m.map_cardinality->seen
-                                        ? fmt::format(", {:+} against those seen", m.map_cardinality->seen->error)
-                                        : std::string()));
+        text += wrapped(fmt::format(
+            "Landmarks in the map: {}, {:+} against all{}.", m.map_cardinality->estimated,
+            m.map_cardinality->error,
+            m.map_cardinality->seen ? fmt::format(", {:+} against those seen", m.map_cardinality->seen->error)
+                                    : std::string()));
     for (const Block& block : {errorBlock(m), consistencyBlock(m), innovationBlock(m), setBlock(m),
                                associationBlock(m), clearBlock(m), identityBlock(m), trajectoryBlock(m)})
         text += block.text();

@@ -27,7 +27,8 @@ struct TargetHistory {
 };
 
 /// The correspondences of earlier stamps that still hold, the newest first where two want one track.
-std::vector<ScenePair> heldPairs(const SceneFrame& frame, const std::vector<TargetHistory>& histories, double gate) {
+std::vector<ScenePair> heldPairs(const SceneFrame& frame, const std::vector<TargetHistory>& histories,
+                                 double gate) {
     std::map<int, std::size_t> place_of_track;
     for (std::size_t j = 0; j < frame.tracks.size(); ++j) place_of_track[frame.tracks[j].index] = j;
     const auto history = [&](std::size_t i) -> const TargetHistory& {
@@ -122,8 +123,8 @@ IdentityScores identityScores(const TrackingScene& scene, double gate) {
             for (const SceneObject& target : frame.targets)
                 if ((track.position - target.position).norm() <= gate) ++together[track.index][target.index];
     }
-    Eigen::MatrixXd cost =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(together.size()), static_cast<Eigen::Index>(scene.targets));
+    Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(together.size()),
+                                                 static_cast<Eigen::Index>(scene.targets));
     Eigen::Index row = 0;
     for (const auto& [track, targets] : together) {
         for (const auto& [target, stamps] : targets) cost(row, target) = -static_cast<double>(stamps);
@@ -153,7 +154,8 @@ CardinalityError cardinalityError(const TrackingScene& scene) {
     return error;
 }
 
-Measured<TrackingMetrics> trackingMetrics(const Measured<TrackingScene>& scene, const EvaluationOptions& options) {
+Measured<TrackingMetrics> trackingMetrics(const Measured<TrackingScene>& scene,
+                                          const EvaluationOptions& options) {
     if (!scene) return Measured<TrackingMetrics>::absent(scene.whyAbsent());
     TrackingMetrics metrics;
     metrics.stamps = static_cast<std::int64_t>(scene->frames.size());

@@ -9,7 +9,8 @@
 namespace slamot::eval {
 namespace {
 
-/// The targets that truth spans at `stamp`, in the order of their ids; nothing if one of them has a gap there.
+/// The targets that truth spans at `stamp`, in the order of their ids; nothing if one of them has a gap
+/// there.
 std::optional<std::vector<SceneObject>> targetsAt(const Truth& truth, Stamp stamp) {
     std::vector<SceneObject> targets;
     int index = -1;
@@ -47,7 +48,8 @@ std::vector<std::optional<SeenTime>> seenTimes(const RunRecord& run, const Truth
     const Stamp begin = run.trajectory.front().stamp, end = run.trajectory.back().stamp;
     for (const TrueAssociation& detection : truth.associations) {
         const auto target = index_of.find(detection.id);
-        if (detection.kind != "mover" || target == index_of.end() || detection.stamp < begin || detection.stamp > end)
+        if (detection.kind != "mover" || target == index_of.end() || detection.stamp < begin ||
+            detection.stamp > end)
             continue;
         auto& time = times[target->second];
         if (!time) time = SeenTime{detection.stamp, detection.stamp};
@@ -78,14 +80,15 @@ std::int64_t setAside(SceneFrame& frame, const std::vector<std::optional<SeenTim
 
 }  // namespace
 
-std::vector<ScenePair> pairWithin(const std::vector<SceneObject>& targets, const std::vector<SceneObject>& tracks,
-                                  double gate) {
+std::vector<ScenePair> pairWithin(const std::vector<SceneObject>& targets,
+                                  const std::vector<SceneObject>& tracks, double gate) {
     Eigen::MatrixXd cost(static_cast<Eigen::Index>(targets.size()), static_cast<Eigen::Index>(tracks.size()));
     bool any = false;
     for (Eigen::Index i = 0; i < cost.rows(); ++i)
         for (Eigen::Index j = 0; j < cost.cols(); ++j) {
-            const double d = (targets[static_cast<std::size_t>(i)].position -
-                              tracks[static_cast<std::size_t>(j)].position).norm();
+            const double d =
+                (targets[static_cast<std::size_t>(i)].position - tracks[static_cast<std::size_t>(j)].position)
+                    .norm();
             cost(i, j) = d <= gate ? d : forbidden_pair;
             any |= d <= gate;
         }
@@ -122,7 +125,8 @@ Measured<TrackingScene> sceneOfAllTargets(const RunRecord& run, const Truth& tru
         scene.frames.push_back(std::move(frame));
     }
     scene.tracks = indices.count();
-    if (scene.frames.empty()) return Result::absent("truth of the targets has a gap at every stamp of the run");
+    if (scene.frames.empty())
+        return Result::absent("truth of the targets has a gap at every stamp of the run");
     return scene;
 }
 

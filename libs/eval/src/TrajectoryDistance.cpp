@@ -83,7 +83,9 @@ std::vector<std::vector<Gain>> gainsOf(const TrackingScene& scene, double p, dou
         for (const SceneObject& target : scene.frames[k].targets)
             for (const SceneObject& track : scene.frames[k].tracks) {
                 const double d = (target.position - track.position).norm();
-                if (d < c) gains[k].push_back({target.index, scene.targets + track.index, cutoff_power - std::pow(d, p)});
+                if (d < c)
+                    gains[k].push_back(
+                        {target.index, scene.targets + track.index, cutoff_power - std::pow(d, p)});
             }
     return gains;
 }
@@ -104,10 +106,10 @@ std::vector<std::vector<int>> lastNamed(const std::vector<std::vector<Gain>>& ga
 
 }  // namespace
 
-// With nothing assigned, every target and track costs c^p / 2 at each of its stamps. An assigned pair within the
-// cutoff saves c^p - d^p; making and giving up an assignment costs gamma^p / 2 each. Both are sums over pairs,
-// so objects that are not near one another can be looked at apart: groups are joined when two of their objects
-// come within the cutoff and taken apart again when only one course is left.
+// With nothing assigned, every target and track costs c^p / 2 at each of its stamps. An assigned pair within
+// the cutoff saves c^p - d^p; making and giving up an assignment costs gamma^p / 2 each. Both are sums over
+// pairs, so objects that are not near one another can be looked at apart: groups are joined when two of their
+// objects come within the cutoff and taken apart again when only one course is left.
 TrajectoryDistance trajectoryDistance(const TrackingScene& scene, double p, double c, double gamma,
                                       const TrajectorySearch& search) {
     TrajectoryDistance result;
@@ -121,7 +123,8 @@ TrajectoryDistance trajectoryDistance(const TrackingScene& scene, double p, doub
     Settled settled;
     double missed = 0;
     for (std::size_t k = 0; k < gains.size(); ++k) {
-        for (const Gain& g : gains[k]) missed += groups.join(g.target, g.track, half_switch, search.most_courses);
+        for (const Gain& g : gains[k])
+            missed += groups.join(g.target, g.track, half_switch, search.most_courses);
         std::map<std::size_t, std::vector<Gain>> by_group;
         for (const Gain& g : gains[k]) by_group[groups.of(g.target)].push_back(g);
         std::map<std::size_t, std::vector<int>> retiring;
@@ -130,7 +133,8 @@ TrajectoryDistance trajectoryDistance(const TrackingScene& scene, double p, doub
         for (const auto& [index, of_group] : by_group) {
             CourseGroup& group = groups.at(index);
             missed += advance(group, of_group, half_switch, search);
-            if (const auto leaving = retiring.find(index); leaving != retiring.end()) retire(group, leaving->second);
+            if (const auto leaving = retiring.find(index); leaving != retiring.end())
+                retire(group, leaving->second);
             missed += prune(group, half_switch, search.most_courses);
             // One object or one pair: nothing to take apart.
             if (group.courses.size() > 1 || group.objects.size() <= 1 ||
@@ -142,8 +146,9 @@ TrajectoryDistance trajectoryDistance(const TrackingScene& scene, double p, doub
     }
     for (const CourseGroup& group : groups.all())
         if (!group.courses.empty())
-            settled.add(*std::max_element(group.courses.begin(), group.courses.end(),
-                                          [](const Course& a, const Course& b) { return a.value < b.value; }));
+            settled.add(
+                *std::max_element(group.courses.begin(), group.courses.end(),
+                                  [](const Course& a, const Course& b) { return a.value < b.value; }));
 
     double targets = 0, tracks = 0;
     for (const SceneFrame& frame : scene.frames) {
@@ -152,7 +157,8 @@ TrajectoryDistance trajectoryDistance(const TrackingScene& scene, double p, doub
     }
     const auto stamps = static_cast<double>(result.stamps), pairs = static_cast<double>(settled.pairs);
     const double localisation = std::max(0.0, 2 * half_cutoff * pairs - settled.saved);
-    const double missed_targets = half_cutoff * (targets - pairs), false_tracks = half_cutoff * (tracks - pairs);
+    const double missed_targets = half_cutoff * (targets - pairs),
+                 false_tracks = half_cutoff * (tracks - pairs);
     const double switching = half_switch * static_cast<double>(settled.half_switches);
     const double power = localisation + missed_targets + false_tracks + switching;
     result.total = std::pow(power, 1 / p);

@@ -30,8 +30,8 @@ struct AssociationMetrics {
 };
 
 /// An object stands for the true source that most of its detections came from, of equals the one that came
-/// first; clutter is no source. Of several objects that stand for one source, the one with the most detections
-/// of it is the object that a detection should be found in, of equals the one that had its first.
+/// first; clutter is no source. Of several objects that stand for one source, the one with the most
+/// detections of it is the object that a detection should be found in, of equals the one that had its first.
 Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Truth& truth);
 
 }  // namespace slamot::eval

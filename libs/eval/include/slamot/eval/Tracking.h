@@ -46,6 +46,7 @@ struct TrackingMetrics {
     CardinalityError cardinality;
     TrajectoryDistance trajectories;
 };
-Measured<TrackingMetrics> trackingMetrics(const Measured<TrackingScene>& scene, const EvaluationOptions& options);
+Measured<TrackingMetrics> trackingMetrics(const Measured<TrackingScene>& scene,
+                                          const EvaluationOptions& options);
 
 }  // namespace slamot::eval

@@ -37,20 +37,20 @@ struct TrackingScene {
 Measured<TrackingScene> sceneOfAllTargets(const RunRecord& run, const Truth& truth,
                                           const EvaluationOptions& options);
 
-/// A target counts from its first to its last detection, as truth's associations tell; one never detected does
-/// not count. Outside that time it is neither missed nor may a track on it be called false: of the one-to-one
-/// pairings of tracks and targets within `target_gate` with the most pairs, the one of least total distance
-/// says which tracks are set aside.
+/// A target counts from its first to its last detection, as truth's associations tell; one never detected
+/// does not count. Outside that time it is neither missed nor may a track on it be called false: of the
+/// one-to-one pairings of tracks and targets within `target_gate` with the most pairs, the one of least total
+/// distance says which tracks are set aside.
 Measured<TrackingScene> sceneOfSeenTargets(const RunRecord& run, const Truth& truth,
                                            const EvaluationOptions& options);
 
-/// One-to-one pairs of a target and a track, by their place in the lists: the most pairs within `gate`, and of
-/// those the least total distance.
+/// One-to-one pairs of a target and a track, by their place in the lists: the most pairs within `gate`, and
+/// of those the least total distance.
 struct ScenePair {
     std::size_t target, track;
     double distance;
 };
-std::vector<ScenePair> pairWithin(const std::vector<SceneObject>& targets, const std::vector<SceneObject>& tracks,
-                                  double gate);
+std::vector<ScenePair> pairWithin(const std::vector<SceneObject>& targets,
+                                  const std::vector<SceneObject>& tracks, double gate);
 
 }  // namespace slamot::eval

@@ -23,7 +23,7 @@ struct TrajectoryDistance {
 /// How far the search goes before it gives up courses and widens the bound instead.
 struct TrajectorySearch {
     /// Courses held for one group of objects, and matchings of a group looked at in one stamp.
-    std::size_t most_courses = 512, most_matchings = 4096;
+    std::size_t most_courses = 128, most_matchings = 256;
 };
 
 /// Order p >= 1, cutoff c > 0 [m], penalty of a switch gamma > 0 [m].
