@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "StampUnits.h"
@@ -43,7 +44,7 @@ std::optional<std::string> whyTooFew(const PairedTrajectory& paired, const std::
         "only {} of the {} estimates within truth's span have a truth, expected at least {} of them: truth "
         "is not "
         "interpolated across gaps of more than {} s",
-        n.matched, n.covered, min_matched, Truth::max_interpolation_gap);
+        n.matched, n.covered, min_matched, truth.max_interpolation_gap);
 }
 
 namespace {
@@ -102,6 +103,10 @@ AbsoluteError absoluteError(const std::vector<PosePair>& pairs, Alignment alignm
 }
 
 Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double delta, RelativeUnit unit) {
+    const auto has_heading = [](const PosePair& pair) { return std::isfinite(pair.truth.theta); };
+    if (std::none_of(pairs.begin(), pairs.end(), has_heading))
+        return Measured<RelativeError>::absent(
+            "truth has no headings, without which no pose is relative to another");
     // Where each pose stands on the axis that delta is measured on: time since the start, or true path
     // length.
     std::vector<double> along(pairs.size(), 0.0);
@@ -118,7 +123,8 @@ Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double
         while (j < pairs.size() && along[j] - along[i] < delta * (1 - rounding)) ++j;
         if (j == pairs.size()) break;
         const double length = along[j] - along[i];
-        if (length > delta * (1 + most_overshoot)) continue;
+        if (length > delta * (1 + most_overshoot) || !has_heading(pairs[i]) || !has_heading(pairs[j]))
+            continue;
         const Pose2 estimated = inverse(pairs[i].estimate.mean) * pairs[j].estimate.mean;
         const Pose2 truly = inverse(pairs[i].truth) * pairs[j].truth;
         const Pose2 error = inverse(truly) * estimated;

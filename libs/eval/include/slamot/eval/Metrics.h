@@ -36,7 +36,8 @@ struct Metrics {
 
 Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptions& options);
 
-/// NEES of the robot's pose, step by step: what consistencyOverRuns takes.
+/// NEES of the robot's pose, step by step: what consistencyOverRuns takes. Of the position alone where truth
+/// has no heading.
 NeesSeries robotNees(const std::vector<PosePair>& pairs);
 
 /// For summary.json: metres, seconds, radians. Numbers that do not exist are null; metrics that do not are

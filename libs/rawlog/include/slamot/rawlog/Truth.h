@@ -13,6 +13,7 @@ namespace slamot {
 
 struct TruePose {
     Stamp stamp;
+    /// The heading is NaN where it is not known, as with GPS.
     Pose2 pose;
 };
 
@@ -43,7 +44,7 @@ struct Truth {
 
     /// Neighbours further apart than this are a gap: nothing is interpolated across it. A single sample
     /// answers for its own stamp always.
-    static constexpr double max_interpolation_gap = 0.1;
+    double max_interpolation_gap = 0.1;  ///< [s], of truth.json
     std::optional<Pose2> robotAt(Stamp stamp) const;
     std::optional<TrueTarget> targetAt(SourceId id, Stamp stamp) const;
 };
