@@ -66,6 +66,24 @@ TEST(Evaluate, RobotNeesWrapsTheHeading) {
     EXPECT_NEAR(series[0].squared.value, (2 * pi - 6.2) * (2 * pi - 6.2), 1e-14);
 }
 
+TEST(Evaluate, ATruthWithoutHeadingsAllowsWhatPositionsTell) {
+    Case c;
+    for (TruePose& p : c.truth.robot) p.pose.theta = std::nan("");
+    const Metrics m = evaluate(c.run, c.truth, {});
+    EXPECT_DOUBLE_EQ(m.robot->position.rmse, 1);
+    EXPECT_EQ(m.robot->heading.count, 0);
+    EXPECT_NEAR(m.ate->position.rmse, 0, 1e-12);
+    // 1 m over a variance of 1, now of two dimensions.
+    EXPECT_NEAR(m.robot_nees->average, 1, 1e-12);
+    EXPECT_EQ(m.robot_nees->mean_dimension, 2);
+    EXPECT_EQ(m.rpe.whyAbsent(), "truth has no headings, without which no pose is relative to another");
+    EXPECT_EQ(m.targets->all.relative_position.count, 0);
+    EvaluationOptions options;
+    options.alignment = Alignment::first_pose;
+    EXPECT_EQ(evaluate(c.run, c.truth, options).ate.whyAbsent(),
+              "the first true pose has no heading to be aligned by");
+}
+
 TEST(Evaluate, RefusesTrajectoryMetricsTogether) {
     Case c;
     for (TruePose& p : c.truth.robot) p.stamp = later(p.stamp, 1e6);

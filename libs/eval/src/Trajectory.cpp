@@ -8,6 +8,18 @@
 #include "StampUnits.h"
 
 namespace slamot::eval {
+namespace {
+
+/// The robot's pose carried to a point of it, p' = p + R(theta) point; the heading stays.
+PoseGaussian carriedTo(const Vector2& point, const PoseGaussian& robot) {
+    const Pose2& mean = robot.mean;
+    const Vector2 place = mean * point, arm = place - mean.position();
+    Matrix3 J = Matrix3::Identity();
+    J.topRightCorner<2, 1>() << -arm.y(), arm.x();
+    return {{place.x(), place.y(), mean.theta}, J * robot.covariance * J.transpose()};
+}
+
+}  // namespace
 
 PairedTrajectory pairWithTruth(const std::vector<RobotRow>& trajectory, const Truth& truth) {
     PairedTrajectory paired;
@@ -17,7 +29,10 @@ PairedTrajectory pairWithTruth(const std::vector<RobotRow>& trajectory, const Tr
     for (const RobotRow& row : trajectory) {
         if (row.stamp < first || row.stamp > last) continue;
         ++paired.counts.covered;
-        if (const auto pose = truth.robotAt(row.stamp)) paired.pairs.push_back({row.stamp, row.robot, *pose});
+        const auto pose = truth.pointAt(row.stamp);
+        if (!pose) continue;
+        const bool at_origin = truth.point.isZero(0);
+        paired.pairs.push_back({row.stamp, at_origin ? row.robot : carriedTo(truth.point, row.robot), *pose});
     }
     paired.counts.matched = static_cast<std::int64_t>(paired.pairs.size());
     return paired;

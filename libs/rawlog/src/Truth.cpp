@@ -27,13 +27,19 @@ std::optional<Neighbours> neighbours(const std::vector<Sample>& samples, Stamp s
 
 }  // namespace
 
-std::optional<Pose2> Truth::robotAt(Stamp stamp) const {
+std::optional<Pose2> Truth::pointAt(Stamp stamp) const {
     const auto n = neighbours(robot, stamp, max_interpolation_gap);
     if (!n) return std::nullopt;
     const Pose2 &a = robot[n->before].pose, &b = robot[n->after].pose;
     const double f = n->fraction;
     return Pose2{a.x + f * (b.x - a.x), a.y + f * (b.y - a.y),
                  wrapAngle(a.theta + f * angleDifference(b.theta, a.theta))};
+}
+
+std::optional<Pose2> Truth::robotAt(Stamp stamp) const {
+    const auto at_point = pointAt(stamp);
+    if (!at_point || point.isZero(0)) return at_point;
+    return *at_point * inverse(Pose2{point.x(), point.y(), 0});
 }
 
 std::optional<TrueTarget> Truth::targetAt(SourceId id, Stamp stamp) const {

@@ -118,15 +118,18 @@ void readNotes(const std::string& file, Truth& truth) {
         truth.frame = notes.value("frame", truth.frame);
         truth.source = notes.value("source", truth.source);
         truth.position_std = notes.value("position_std", truth.position_std);
+        if (notes.contains("point_on_robot"))
+            truth.point = {notes["point_on_robot"].at(0).get<double>(),
+                           notes["point_on_robot"].at(1).get<double>()};
         truth.max_interpolation_gap = notes.value(gap_key, truth.max_interpolation_gap);
     } catch (const json::exception& error) {
         // The reason stands after the library's own name for it, in brackets.
         const std::string what = error.what(),
                           reason = what.substr(std::min(what.size(), what.find("] ") + 2));
         throw LogError(
-            fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
-                        "'position_std' ({})",
-                        file, reason));
+            fmt::format("{}: expected a JSON object with texts 'frame' and 'source', numbers 'position_std' "
+                        "and '{}' and a pair of numbers 'point_on_robot' ({})",
+                        file, gap_key, reason));
     }
     if (!(truth.max_interpolation_gap > 0))
         throw LogError(fmt::format("{}: '{}' is {}, expected a positive number of seconds", file, gap_key,
@@ -229,6 +232,7 @@ void writeNotes(const Truth& truth, const fs::path& file) {
     json notes = {{"frame", truth.frame},
                   {"source", truth.source},
                   {"position_std", truth.position_std},
+                  {"point_on_robot", {truth.point.x(), truth.point.y()}},
                   {gap_key, truth.max_interpolation_gap},
                   {"landmarks", truth.landmarks.size()},
                   {"associations", truth.associations.size()},

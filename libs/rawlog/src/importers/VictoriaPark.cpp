@@ -148,9 +148,10 @@ ImportResult importVictoriaPark(const std::string& in, const std::string& out,
     truth.robot = readGps(folder / "gps.dat", wild);
     truth.max_interpolation_gap = longest_gps_step;
     truth.source =
-        "Victoria Park, GPS: position of the antenna, whose place on the car is not known; no heading; "
-        "accuracy not "
-        "stated, jumps of several metres occur; wild fixes are left out";
+        "Victoria Park, GPS: position of the antenna, taken to be the laser's; no heading; accuracy not "
+        "stated, jumps "
+        "of several metres occur; wild fixes are left out";
+    truth.point = laser.position();
     const fs::path isam = folder / "isam_associations.txt";
     std::string labels = "no isam_associations.txt, no detection has an id";
     if (fs::exists(isam)) {
