@@ -27,7 +27,7 @@ constexpr double wheelbase = 2.83, half_track = 0.76;
 // Contain every reading (1.48 to 75.3 m); the laser sees half a turn and its makers say 80 m.
 constexpr double min_range = 1.0, max_range = 80.0, field_of_view = pi;
 // What the log claims for a trunk's centre; see doc/file_formats.md.
-constexpr double claimed_std_range = 0.3, claimed_std_bearing = 0.02;
+constexpr double claimed_std_range = 0.2, claimed_std_bearing = 0.014;
 constexpr const char* label = "landmarks";
 constexpr int laser_in_manager = 3;
 
