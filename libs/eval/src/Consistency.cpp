@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "Median.h"
+#include "slamot/core/association/ChiSquare.h"
 #include "slamot/core/plugin/Estimator.h"
 
 namespace slamot::eval {
@@ -39,10 +39,6 @@ SquaredError nees(const SmallVector& error, const SmallMatrix& covariance) {
         ++squared.dimension;
     }
     return squared;
-}
-
-double chiSquareQuantile(double probability, double degrees) {
-    return boost::math::quantile(boost::math::chi_squared(degrees), probability);
 }
 
 Band chiSquareBand(double probability, double total_degrees, double count) {

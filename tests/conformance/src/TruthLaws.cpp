@@ -1,4 +1,5 @@
 // Laws that hold the answer against the world's: symmetry, convergence, consistency.
+#include <slamot/core/association/ChiSquare.h>
 #include <slamot/eval/Consistency.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ Vector3 errorOf(const Pose2& estimate, const Pose2& truth) {
 
 /// Two-sided quantile of a normal variable, through chi-square with one degree of freedom.
 double deviations(double false_alarms) {
-    return std::sqrt(eval::chiSquareQuantile(1 - false_alarms, 1));
+    return std::sqrt(chiSquareQuantile(1 - false_alarms, 1));
 }
 
 /// Where a sampled estimator ends over many seeds, as errors against `reference`.

@@ -137,9 +137,15 @@ TEST(ActiveSetPolicyTest, CommitsWhenThereIsMuchToGain) {
     const ActiveSetPolicy policy(parameters);
     EXPECT_TRUE(policy.worthCommit(100, 40, 0, 301));
     EXPECT_FALSE(policy.worthCommit(100, 40, 0, 300));
-    EXPECT_TRUE(policy.worthCommit(200, 80, 21, 0));
-    EXPECT_FALSE(policy.worthCommit(200, 80, 20, 0));
-    EXPECT_FALSE(policy.worthCommit(200, 50, 49, 0)) << "a small map stays whole";
+    // A map that is divided already.
+    EXPECT_TRUE(policy.worthCommit(200, 80, 20, 250));
+    EXPECT_FALSE(policy.worthCommit(200, 80, 19, 250));
+    EXPECT_FALSE(policy.worthCommit(120, 50, 49, 250)) << "few are kept in any case";
+    EXPECT_FALSE(policy.worthCommit(100, 60, 0, 250));
+    // One that is whole: more than four times what is kept.
+    EXPECT_TRUE(policy.worthCommit(180, 90, 68, 0));
+    EXPECT_FALSE(policy.worthCommit(180, 90, 67, 0));
+    EXPECT_FALSE(policy.worthCommit(240, 90, 68, 0)) << "movers stay and count";
 }
 
 }  // namespace

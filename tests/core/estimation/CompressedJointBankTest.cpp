@@ -330,7 +330,10 @@ TEST_P(CompressedJointBankTest, WhatIsPutAwayCanBeRemoved) {
     for (int i = 0; i < 6; ++i) pair.augment(BlockKind::landmark);
     pair.update();
     pair.commit({1, 2, 3, 4});
-    pair.attend();
+    for (const char* step : {"with an activation", "with a grouping"}) {
+        SCOPED_TRACE(step);
+        pair.attend();
+    }
     EXPECT_EQ(pair.compressed.map().census().near_columns, 0)
         << "in the far group; near ones: ExactBetweenCommits";
     pair.update();

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "slamot/core/estimation/DenseAlgebra.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
@@ -56,6 +58,28 @@ TEST(DenseAlgebraTest, WorksOnBlocksOfLargerStorage) {
     EXPECT_TRUE(near(W_storage.topLeftCorner(10, 4), W_before.topLeftCorner(10, 4) / 2, rounding));
     EXPECT_EQ(W_storage.rightCols(5), W_before.rightCols(5));
     EXPECT_EQ(W_storage.bottomRows(5), W_before.bottomRows(5));
+}
+
+TEST(DenseAlgebraTest, ProductsAreEigens) {
+    RandomStream random(4, RandomPurpose::test);
+    for (const auto& [n, k, m] : {std::array{1, 1, 1}, {7, 2, 5}, {40, 33, 6}, {5, 0, 4}}) {
+        const Eigen::MatrixXd A = randomMatrix(random, n, k), B = randomMatrix(random, k, m),
+                              C = randomMatrix(random, n, m);
+        const Eigen::MatrixXd A_t = A.transpose(), B_t = B.transpose(), AB = A * B;
+        Eigen::MatrixXd out = C;
+        multiply(A, B, out);
+        EXPECT_TRUE(near(out, AB, rounding));
+        multiplyTransposed(A_t, B, out);
+        EXPECT_TRUE(near(out, AB, rounding));
+        out = C;
+        addProduct(A, B, out);
+        EXPECT_TRUE(near(out, C + AB, rounding));
+        addTransposedProduct(A_t, B, out);
+        EXPECT_TRUE(near(out, C + 2 * AB, rounding));
+        EXPECT_TRUE(near(product(A, B), AB, rounding));
+        EXPECT_TRUE(near(transposedProduct(A_t, B), AB, rounding));
+        EXPECT_TRUE(near(productTransposed(A, B_t), AB, rounding));
+    }
 }
 
 }  // namespace

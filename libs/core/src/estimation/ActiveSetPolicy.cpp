@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace slamot {
+namespace {
+
+/// After a commit of the invariant core active state and base together have three times the active
+/// dimensions.
+constexpr int dividing_factor = 4;
+
+}  // namespace
 
 ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
     ParameterTable table(name,
@@ -24,7 +31,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
         .real("retirable_part", p.retirable_part, "-", Interval::probability(),
               "Commit when this part of the active landmarks is out of reach.")
         .integer("keep_at_least", p.keep_at_least, Interval::nonNegative(),
-                 "Active landmarks that are kept in any case: a small map is never divided.");
+                 "With fewer active landmarks nothing is put away.");
     return table;
 }
 
@@ -88,8 +95,11 @@ bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view
 bool ActiveSetPolicy::worthCommit(int active_dimension, int active_landmarks, int retirable,
                                   int base_dimension) const {
     if (base_dimension > parameters_.base_growth * active_dimension) return true;
-    return retirable > 0 && active_landmarks > parameters_.keep_at_least &&
-           retirable > parameters_.retirable_part * active_landmarks;
+    if (active_landmarks <= parameters_.keep_at_least || retirable == 0 ||
+        retirable < parameters_.retirable_part * active_landmarks)
+        return false;
+    // The base comes on top of what is kept: a map that is whole is divided only when both are fewer by far.
+    return base_dimension > 0 || active_dimension > dividing_factor * (active_dimension - 2 * retirable);
 }
 
 }  // namespace slamot

@@ -193,26 +193,12 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
     weights.maxCoeff(&reference);
     const Mode& mode = modes_[static_cast<std::size_t>(reference)];
 
-    leaving_.clear();
-    int active_landmarks = 0;
-    for (const BlockPlace& block : layout_.places()) {
-        if (block.kind != BlockKind::landmark) continue;
-        ++active_landmarks;
-        const bool measured = std::find(attention.measured.begin(), attention.measured.end(), block.id) !=
-                              attention.measured.end();
-        if (!measured && !policy_.toKeep(mode.gaussian.mean().segment<2>(block.offset)))
-            leaving_.push_back(block.id);
-    }
-    if (policy_.worthCommit(activeDimension(), active_landmarks, static_cast<int>(leaving_.size()),
-                            map_.baseDimension()))
-        commit(leaving_, weights);
-
-    if (policy_.range() > 0) map_.follow(mode.gaussian.mean().head<2>(), policy_.range());
-
     coming_.clear();
     for (const BlockId id : attention.measured)
         if (map_.contains(id)) coming_.push_back(id);
     if (policy_.due()) {
+        // Out goes what has fallen behind, before what has come close joins.
+        retire(mode, attention.measured, weights);
         if (map_.size() > 0) {
             const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
             map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
@@ -222,8 +208,26 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
             });
         }
         policy_.refreshed();
+    } else if (policy_.range() > 0) {
+        map_.follow(mode.gaussian.mean().head<2>(), policy_.range());
     }
     activate(coming_);
+}
+
+void CompressedJointBank::retire(const Mode& mode, const std::vector<BlockId>& measured,
+                                 const ModeWeights& weights) {
+    leaving_.clear();
+    int active_landmarks = 0;
+    for (const BlockPlace& block : layout_.places()) {
+        if (block.kind != BlockKind::landmark) continue;
+        ++active_landmarks;
+        if (std::find(measured.begin(), measured.end(), block.id) == measured.end() &&
+            !policy_.toKeep(mode.gaussian.mean().segment<2>(block.offset)))
+            leaving_.push_back(block.id);
+    }
+    if (policy_.worthCommit(activeDimension(), active_landmarks, static_cast<int>(leaving_.size()),
+                            map_.baseDimension()))
+        commit(leaving_, weights);
 }
 
 std::size_t CompressedJointBank::memory() const {

@@ -11,14 +11,16 @@ void useOneThread() {
     static_cast<void>(done);
 }
 
-void gemm(CBLAS_TRANSPOSE transpose, const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
+/// C <- beta C + op(A) op(B), the products of `inner` terms each.
+void gemm(CBLAS_TRANSPOSE of_A, const MatrixIn& A, CBLAS_TRANSPOSE of_B, const MatrixIn& B, double beta,
+          MatrixOut C) {
     useOneThread();
-    if (B.rows() == 0) C.setZero();
-    if (C.size() == 0 || B.rows() == 0) return;
-    cblas_dgemm(CblasColMajor, transpose, CblasNoTrans, static_cast<int>(C.rows()),
-                static_cast<int>(C.cols()), static_cast<int>(B.rows()), 1.0, A.data(),
-                static_cast<int>(A.outerStride()), B.data(), static_cast<int>(B.outerStride()), 0.0, C.data(),
-                static_cast<int>(C.outerStride()));
+    const Eigen::Index inner = of_A == CblasNoTrans ? A.cols() : A.rows();
+    if (inner == 0 && beta == 0) C.setZero();
+    if (C.size() == 0 || inner == 0) return;
+    cblas_dgemm(CblasColMajor, of_A, of_B, static_cast<int>(C.rows()), static_cast<int>(C.cols()),
+                static_cast<int>(inner), 1.0, A.data(), static_cast<int>(A.outerStride()), B.data(),
+                static_cast<int>(B.outerStride()), beta, C.data(), static_cast<int>(C.outerStride()));
 }
 
 }  // namespace
@@ -31,17 +33,37 @@ void downdateLower(MatrixOut A, const MatrixIn& W) {
 }
 
 void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
-    gemm(CblasNoTrans, A, B, C);
+    gemm(CblasNoTrans, A, CblasNoTrans, B, 0, C);
+}
+
+void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
+    gemm(CblasTrans, A, CblasNoTrans, B, 0, C);
+}
+
+void addProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
+    gemm(CblasNoTrans, A, CblasNoTrans, B, 1, C);
+}
+
+void addTransposedProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
+    gemm(CblasTrans, A, CblasNoTrans, B, 1, C);
 }
 
 Eigen::MatrixXd product(const MatrixIn& A, const MatrixIn& B) {
     Eigen::MatrixXd C(A.rows(), B.cols());
-    multiply(A, B, C);
+    gemm(CblasNoTrans, A, CblasNoTrans, B, 0, C);
     return C;
 }
 
-void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C) {
-    gemm(CblasTrans, A, B, C);
+Eigen::MatrixXd transposedProduct(const MatrixIn& A, const MatrixIn& B) {
+    Eigen::MatrixXd C(A.cols(), B.cols());
+    gemm(CblasTrans, A, CblasNoTrans, B, 0, C);
+    return C;
+}
+
+Eigen::MatrixXd productTransposed(const MatrixIn& A, const MatrixIn& B) {
+    Eigen::MatrixXd C(A.rows(), B.rows());
+    gemm(CblasNoTrans, A, CblasTrans, B, 0, C);
+    return C;
 }
 
 void solveLowerTransposedFromRight(const MatrixIn& L, MatrixOut W) {

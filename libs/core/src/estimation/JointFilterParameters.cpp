@@ -55,7 +55,7 @@ ParameterTable filterTable(JointFilterParameters& p, const std::string& name, co
             "engine", p.engine.kind,
             {{"dense", JointEngine::Kind::dense}, {"compressed", JointEngine::Kind::compressed}},
             "dense: one covariance, a step costs the square of the map; compressed: the same numbers, a step "
-            "costs what is near the sensors.");
+            "costs what is near the sensors, and small maps are kept as in dense.");
     return filter;
 }
 

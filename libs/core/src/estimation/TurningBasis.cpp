@@ -1,6 +1,81 @@
 #include "slamot/core/estimation/TurningBasis.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "slamot/core/estimation/DenseAlgebra.h"
+
 namespace slamot {
+namespace {
+
+/// Real form of a complex matrix that acts on pairs of rows (y, i y).
+Eigen::MatrixXd onPairs(const Eigen::MatrixXcd& T) {
+    Eigen::MatrixXd out(2 * T.rows(), 2 * T.cols());
+    for (Eigen::Index j = 0; j < T.cols(); ++j)
+        for (Eigen::Index i = 0; i < T.rows(); ++i)
+            out.block<2, 2>(2 * i, 2 * j) << T(i, j).real(), T(i, j).imag(), -T(i, j).imag(), T(i, j).real();
+    return out;
+}
+
+Eigen::MatrixXd firstOfPairs(const Eigen::MatrixXd& rows) {
+    return rows(Eigen::seqN(0, rows.rows() / 2, 2), Eigen::all);
+}
+
+/// A B^t summed over parts, for rows in pairs: the first row of each pair says all.
+Eigen::MatrixXd gram(const CutRowsView& A, const CutRowsView& B) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(A.front()->rows() / 2, B.front()->rows());
+    for (std::size_t t = 0; t < A.size(); ++t) out += productTransposed(firstOfPairs(*A[t]), *B[t]);
+    return withTurnedRows(out);
+}
+
+/// The complex matrix behind one that is linear over the quarter turn.
+Eigen::MatrixXcd ofPairs(const Eigen::MatrixXd& M) {
+    Eigen::MatrixXcd out(M.rows() / 2, M.cols() / 2);
+    for (Eigen::Index j = 0; j < out.cols(); ++j)
+        for (Eigen::Index i = 0; i < out.rows(); ++i) out(i, j) = {M(2 * i, 2 * j), M(2 * i, 2 * j + 1)};
+    return out;
+}
+
+CutRowsView viewOf(const CutRows& rows) {
+    CutRowsView out;
+    for (const Eigen::MatrixXd& part : rows) out.push_back(&part);
+    return out;
+}
+
+/// T V, where T is closed under the quarter turn: of each pair the first row is made and turned, also where
+/// scaling up brings rounding forward.
+CutRows transformed(const Eigen::MatrixXd& T, const CutRowsView& V) {
+    const Eigen::MatrixXd first = firstOfPairs(T);
+    CutRows out;
+    for (const Eigen::MatrixXd* part : V) out.push_back(withTurnedRows(product(first, *part)));
+    return out;
+}
+
+/// Eigenvalues above this part of the largest have eigenvectors worth their name.
+constexpr double well_known = 1e-8;
+
+/// What the Gram matrix of some rows says of their directions.
+struct Directions {
+    Eigen::MatrixXd unit;     ///< unit times the rows is orthonormal: directions that are well known
+    Eigen::MatrixXd weights;  ///< rows = weights unit rows + rest
+    Eigen::MatrixXd others;   ///< the rows' combinations that make up the rest
+    double longest;
+
+    explicit Directions(const Eigen::MatrixXd& gram) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(ofPairs(gram));
+        const Eigen::VectorXd& squared = solver.eigenvalues();
+        longest = std::sqrt(std::max(0.0, squared(squared.size() - 1)));
+        const auto few = (squared.array() <= well_known * longest * longest).count(),
+                   many = squared.size() - few;
+        const Eigen::VectorXd length = squared.tail(many).cwiseSqrt();
+        const Eigen::MatrixXcd E = solver.eigenvectors().rightCols(many);
+        unit = onPairs(length.cwiseInverse().asDiagonal() * E.adjoint());
+        weights = onPairs(E * length.asDiagonal());
+        others = onPairs(solver.eigenvectors().leftCols(few));
+    }
+};
+
+}  // namespace
 
 Eigen::MatrixXd turnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     Eigen::MatrixXd out(rows.rows(), rows.cols());
@@ -11,27 +86,92 @@ Eigen::MatrixXd turnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     return out;
 }
 
+Eigen::MatrixXd withTurnedRows(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+    Eigen::MatrixXd out(2 * rows.rows(), rows.cols());
+    for (Eigen::Index j = 0; j + 1 < rows.cols(); j += 2)
+        for (Eigen::Index i = 0; i < rows.rows(); ++i)
+            out.block<2, 2>(2 * i, j) << rows(i, j), rows(i, j + 1), -rows(i, j + 1), rows(i, j);
+    return out;
+}
+
 Eigen::MatrixXd turningBasis(Eigen::MatrixXd rows, double tolerance, int largest) {
-    // Gram-Schmidt with the longest remaining row first, each pivot orthogonalised twice.
-    Eigen::MatrixXd basis(largest, rows.cols());
+    // Gram-Schmidt with the longest remaining row first, each pivot orthogonalised twice. The other rows
+    // follow in panels of pivots; within one their lengths are told by what was taken out.
+    constexpr int panel = 32;
+    constexpr double told = 1e-6;  // of the longest squared length at the panel's beginning
+    Eigen::MatrixXd basis(largest, rows.cols()), along(rows.rows(), panel);
     int rank = 0;
-    while (true) {
+    while (rows.rows() > 0) {
+        Eigen::VectorXd squared = rows.rowwise().squaredNorm();
+        const double enough = std::max(tolerance * tolerance, told * squared.maxCoeff());
+        const int start = rank;
         Eigen::Index longest = 0;
-        if (rows.rows() == 0 || rows.rowwise().squaredNorm().maxCoeff(&longest) <= tolerance * tolerance)
-            break;
-        if (rank + 2 > largest) return Eigen::MatrixXd(0, rows.cols());
-        const auto found = basis.topRows(rank);
-        Eigen::MatrixXd pair(2, rows.cols());
-        pair.row(0) = rows.row(longest).normalized();
-        pair.row(0) -= (pair.row(0) * found.transpose()) * found;
-        pair.row(0).normalize();
-        pair.row(1) = turnedRows(pair.row(0));
-        rows -= (rows * pair.transpose()) * pair;
-        rows.row(longest).setZero();
-        basis.middleRows<2>(rank) = pair;
-        rank += 2;
+        while (rank - start < panel && squared.maxCoeff(&longest) > enough) {
+            if (rank + 2 > largest) return Eigen::MatrixXd(0, rows.cols());
+            const int taken = rank - start;
+            const auto found = basis.topRows(rank);
+            Eigen::RowVectorXd pivot = rows.row(longest);
+            pivot -= along.row(longest).head(taken) * found.bottomRows(taken);
+            pivot.normalize();
+            pivot -= (pivot * found.transpose()) * found;
+            basis.row(rank) = pivot.normalized();
+            basis.row(rank + 1) = turnedRows(basis.row(rank));
+            auto new_along = along.middleCols<2>(taken);
+            new_along = productTransposed(rows, basis.middleRows<2>(rank));
+            squared -= new_along.rowwise().squaredNorm();
+            squared(longest) = 0;
+            rank += 2;
+        }
+        if (rank == start) break;
+        rows -= product(along.leftCols(rank - start), basis.middleRows(start, rank - start));
     }
     return basis.topRows(rank);
+}
+
+OrthonormalRows::OrthonormalRows(const Eigen::MatrixXd& W, const CutRowsView& V, double negligible)
+    : V_(V), W_(W.rows(), 0), many_(0, W.cols()), few_(V.size()) {
+    for (std::size_t t = 0; t < V.size(); ++t) few_[t].resize(0, V[t]->cols());
+    if (V.empty() || W.cols() == 0) return;
+    const Directions first(gram(V, V));
+    if (W.norm() * first.longest <= negligible) return;
+    many_ = first.unit;
+    W_ = product(W, first.weights);
+
+    // A Gram matrix knows directions of which little is left to half the digits only: they are taken apart
+    // and orthonormalised among themselves.
+    Eigen::MatrixXd W_rest = product(W, first.others);
+    CutRows rest = transformed(first.others.transpose(), V);
+    while (W_rest.cols() > 0) {
+        W_ += product(W_rest, deflate(rest));
+        const Directions next(gram(viewOf(rest), viewOf(rest)));
+        if (W_rest.norm() * next.longest <= negligible) return;
+        const CutRows unit = transformed(next.unit, viewOf(rest));
+        for (std::size_t t = 0; t < V.size(); ++t) {
+            few_[t].conservativeResize(few_[t].rows() + unit[t].rows(), Eigen::NoChange);
+            few_[t].bottomRows(unit[t].rows()) = unit[t];
+        }
+        W_.conservativeResize(Eigen::NoChange, W_.cols() + next.weights.cols());
+        W_.rightCols(next.weights.cols()) = product(W_rest, next.weights);
+        W_rest = product(W_rest, next.others);
+        rest = transformed(next.others.transpose(), viewOf(rest));
+    }
+}
+
+Eigen::MatrixXd OrthonormalRows::deflate(CutRows& rest) const {
+    Eigen::MatrixXd along(rest.front().rows(), W_.cols());
+    along.leftCols(many_.rows()) = productTransposed(gram(viewOf(rest), V_), many_);
+    along.rightCols(few_.front().rows()) = gram(viewOf(rest), viewOf(few_));
+    const CutRows found = times(along);
+    for (std::size_t t = 0; t < rest.size(); ++t) rest[t] -= found[t];
+    return along;
+}
+
+CutRows OrthonormalRows::times(const Eigen::MatrixXd& K) const {
+    CutRows out = transformed(product(K.leftCols(many_.rows()), many_), V_);
+    if (W_.cols() == many_.rows()) return out;
+    const CutRows rest = transformed(K.rightCols(W_.cols() - many_.rows()), viewOf(few_));
+    for (std::size_t t = 0; t < out.size(); ++t) out[t] += rest[t];
+    return out;
 }
 
 }  // namespace slamot

@@ -36,9 +36,6 @@ struct Band {
     bool contains(double v) const { return low <= v && v <= high; }
 };
 
-/// The value that a chi-square variable stays below with `probability`.
-double chiSquareQuantile(double probability, double degrees);
-
 /// Two-sided: `probability` inside, equal parts below and above, for the mean of `count` values whose degrees
 /// of freedom add up to `total_degrees`.
 Band chiSquareBand(double probability, double total_degrees, double count = 1);

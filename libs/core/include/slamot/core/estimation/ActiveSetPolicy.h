@@ -15,11 +15,11 @@ struct ActiveSetParameters {
     /// was met at where a sensor has none.
     std::optional<double> range;
     double activate_margin = 0.4;  ///< landmarks up to (1 + this) ranges away are activated
-    double keep_margin = 0.5;      ///< active ones are kept up to (1 + this) ranges away, or activate_margin
+    double keep_margin = 0.45;     ///< active ones are kept up to (1 + this) ranges away, or activate_margin
     double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
     double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
-    double retirable_part = 0.25;  ///< commit when this part of the active landmarks is out of reach
-    int keep_at_least = 100;       ///< active landmarks; fewer are not worth a commit
+    double retirable_part = 0.1;   ///< commit when this part of the active landmarks is out of reach
+    int keep_at_least = 40;        ///< active landmarks; with fewer nothing is put away
 };
 
 /// The table `[name]`.

@@ -72,6 +72,8 @@ class CompressedJointBank : public JointBank {
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
+    /// Commits the landmarks out of reach, if they are worth it.
+    void retire(const Mode& mode, const std::vector<BlockId>& measured, const ModeWeights& weights);
     /// A mode at the start of a new base: P_aa and a of its own, b given a as all modes have it. `merged` is
     /// of the modes' common P_aa, `deviation` of the mode's mean from the common one.
     void restart(BlockGaussian& mode, const std::vector<int>& kept, const SquareRoot& merged,

@@ -17,11 +17,18 @@ void solveLowerTransposedFromRight(const MatrixIn& L, MatrixOut W);
 
 /// C <- A B.
 void multiply(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
+/// C <- A^t B.
+void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
+/// C += A B.
+void addProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
+/// C += A^t B.
+void addTransposedProduct(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
 
 /// A B.
 Eigen::MatrixXd product(const MatrixIn& A, const MatrixIn& B);
-
-/// C <- A^t B.
-void multiplyTransposed(const MatrixIn& A, const MatrixIn& B, MatrixOut C);
+/// A^t B.
+Eigen::MatrixXd transposedProduct(const MatrixIn& A, const MatrixIn& B);
+/// A B^t.
+Eigen::MatrixXd productTransposed(const MatrixIn& A, const MatrixIn& B);
 
 }  // namespace slamot

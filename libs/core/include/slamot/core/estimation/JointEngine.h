@@ -11,9 +11,9 @@ namespace slamot {
 struct JointEngine {
     enum class Kind {
         dense,      ///< one full covariance per mode
-        compressed  ///< what is near the sensors, and one map for all modes
+        compressed  ///< what is near the sensors, and one map for all modes; whole as long as that is faster
     };
-    Kind kind = Kind::dense;
+    Kind kind = Kind::compressed;
     ActiveSetParameters active_set;
 };
 

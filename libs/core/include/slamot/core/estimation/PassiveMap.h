@@ -3,15 +3,13 @@
 // which the modes keep with the active state, and e, with covariance P_bb0, is independent of everything
 // else.
 //
-// How P_bb0 and B are kept (doc/maths/compressed_engine.md). Landmarks stand in tiles of neighbours; P_bb0 is
-// one block for each pair of tiles. Tiles near the robot have their columns X_t of B; all the others are one
-// FarGroup. A commit, P_bb0 += B^t Psi B, goes into the blocks of near tiles at once and waits in the group
-// for the others. When the robot has moved on, the tiles are grouped anew, and what waits in the old group is
-// added to the blocks in slices by `step`; who asks for a covariance before gets it with what is waiting. The
-// group leaves out directions that say next to nothing (negligibleLength).
+// How B is kept (doc/maths/compressed_engine.md). Landmarks stand in tiles of neighbours. Tiles near the
+// robot have their columns X_t of B; all the others are one FarGroup. A commit, P_bb0 += B^t Psi B, goes into
+// the covariances of near tiles at once and waits in the group for the others. When the robot has moved on,
+// the tiles are grouped anew, and the PassiveCovariance takes over what waits in the old group. The group
+// leaves out directions that say next to nothing (negligibleLength).
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -19,6 +17,7 @@
 #include "slamot/core/data/Pose2.h"
 #include "slamot/core/estimation/Blocks.h"
 #include "slamot/core/estimation/FarGroup.h"
+#include "slamot/core/estimation/PassiveCovariance.h"
 
 namespace slamot {
 
@@ -27,7 +26,7 @@ class PassiveMap {
     /// `turning`: base rows come in pairs, the second turned by a quarter turn (the invariant core).
     explicit PassiveMap(bool turning) : turning_(turning) {}
 
-    int size() const { return static_cast<int>(addresses_.size()); }
+    int size() const { return size_; }
     /// dim(beta), rows of B.
     int baseDimension() const { return q_; }
     bool contains(BlockId landmark) const;
@@ -84,8 +83,8 @@ class PassiveMap {
     /// the robot has moved far enough; says whether it did.
     bool follow(const Vector2& robot, double reach);
 
-    /// One step's part of adding to blocks what waits in old groups.
-    void step();
+    /// One step's part of the work on covariances that wait.
+    void step() { covariance_.step(); }
 
     /// Bytes of covariances and base.
     std::size_t memory() const;
@@ -106,59 +105,49 @@ class PassiveMap {
         int width() const { return 2 * static_cast<int>(landmarks.size()); }
         Vector2 centre() const;
     };
-    struct Pair {               ///< of tiles s <= t
-        Eigen::MatrixXd Z;      ///< P of their landmarks; what lies beyond its size is zero
-        std::int64_t done = 0;  ///< number of the first old group not yet in Z
-    };
     struct Address {
-        BlockId landmark;
-        int tile, index;
+        int tile = -1, index = -1;  ///< none: not here
     };
 
     Tile& tile(int t) { return tiles_[static_cast<std::size_t>(t)]; }
     const Tile& tile(int t) const { return tiles_[static_cast<std::size_t>(t)]; }
     int tileCount() const { return static_cast<int>(tiles_.size()); }
     bool used(int t) const { return !tile(t).landmarks.empty(); }
-    Pair& pair(int s, int t) {
-        return pairs_[static_cast<std::size_t>(std::max(s, t))][static_cast<std::size_t>(std::min(s, t))];
-    }
-    const Pair& pair(int s, int t) const { return const_cast<PassiveMap*>(this)->pair(s, t); }
     const Address& find(BlockId landmark) const;
-    void index();
-    Eigen::MatrixXd withTurned(const Eigen::MatrixXd& rows) const;
+    void index(int t);
+    /// The base's rows, of its rows proper and the other way round.
+    Eigen::MatrixXd withTurned(const Eigen::MatrixXd& proper) const;
     Eigen::MatrixXd rowsProper(const Eigen::MatrixXd& rows) const;
 
-    /// Adds P to the block of coordinates of s from `row` on and of t from `column` on.
-    void addBlock(int s, int row, int t, int column, const Eigen::Ref<const Eigen::MatrixXd>& P);
-    /// Longest standard deviation of a landmark, roughly: what tolerances refer to.
-    double landmarkStd() const;
+    /// The two coordinates of each landmark of a tile.
+    static std::vector<int> coordinatesOf(const std::vector<int>& landmarks);
     /// Shorter rows of B, over all landmarks, say nothing.
     double negligibleLength() const;
+    /// New rows of the base for the landmarks taken, P_c,t0 - known^t U_t whitened.
     void addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
                  const Eigen::MatrixXd& whitener);
+    void addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
+                    const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener);
     void drop(int t, const std::vector<int>& gone);
     int tileFor(const Vector2& position);
     /// What a commit adds to P_bb0.
     void addTerm(const Eigen::MatrixXd& Psi);
     void append(const Commit& commit, const Eigen::MatrixXd& near_rows, const Eigen::MatrixXd& far_rows,
                 const std::vector<int>& first_column);
-    void work(double multiplications);
     /// Ends the present group; far are then the tiles for which far[t].
     void regroup(const std::vector<char>& far);
 
     bool turning_;
     int q_ = 0;
     std::vector<Tile> tiles_;
-    std::vector<std::vector<Pair>> pairs_;  ///< [t][s], s <= t
-    std::vector<Address> addresses_;        ///< by landmark
+    std::vector<Address> addresses_;  ///< by landmark
+    int size_ = 0;
+    PassiveCovariance covariance_;  ///< without what waits in group_
     FarGroup group_;
-    std::deque<FarGroup> old_groups_;
-    int next_s_ = 0, next_t_ = 0;  ///< where `work` goes on in the oldest of old_groups_
     Vector2 robot_ = Vector2::Zero(), grouped_at_ = Vector2::Zero();
     double reach_ = std::numeric_limits<double>::infinity();
+    double landmark_std_ = 0;  ///< what tolerances refer to
     std::int64_t regroupings_ = 0;
-    double queued_ = 0;  ///< multiplications that were waiting after the last regrouping
-    double steps_between_regroupings_ = 0, steps_since_regrouping_ = 0;
 };
 
 }  // namespace slamot

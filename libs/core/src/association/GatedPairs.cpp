@@ -1,0 +1,68 @@
+#include "slamot/core/association/GatedPairs.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "slamot/core/models/RangeBearing.h"
+
+namespace slamot {
+namespace {
+
+/// Where a sensor expects an object: all about a pair that the detection has no part in.
+struct Expected {
+    Vector2 z;
+    Vector2 variance;  ///< diagonal of S - R
+};
+
+Expected expect(const Linearisation& any, const RangeBearingDetection& detection) {
+    return {rangeBearingResidual(detection.z(), any.measurement.residual),
+            any.S.diagonal() - detection.covariance.diagonal()};
+}
+
+/// One row's squared distance is never above that of both: what fails here fails the gate.
+bool mayPass(const Expected& expected, const RangeBearingDetection& detection, double gate) {
+    const Vector2 nu = rangeBearingResidual(detection.z(), expected.z);
+    const Vector2 variance = expected.variance + detection.covariance.diagonal();
+    // The last bits of `expected` depend on the detection it was made with.
+    return (nu.array().square() <= (1 + 1e-9) * gate * variance.array()).all();
+}
+
+double logDensity(const Linearisation& pair) {
+    return -0.5 * (pair.nis + std::log(pair.S.determinant())) - std::log(2.0 * pi);
+}
+
+}  // namespace
+
+GatedPairs gatedPairs(const JointView& state, const std::vector<BlockId>& objects,
+                      const RangeBearingSet& seen, const std::vector<int>& detections,
+                      Consistency consistency, PairGates& gates) {
+    const double gate = gates(1);
+    std::vector<Candidate> candidates;
+    std::vector<LinearMeasurement> measurements;
+    std::map<int, std::vector<std::optional<Expected>>> by_sensor;
+    for (const int d : detections) {
+        const RangeBearingDetection& detection = seen.detections[static_cast<std::size_t>(d)];
+        const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+        auto& expected = by_sensor[detection.sensor];
+        expected.resize(objects.size());
+        for (std::size_t o = 0; o < objects.size(); ++o) {
+            const auto linearised = [&] {
+                return linearise(state, objects[o], detection, sensor, consistency);
+            };
+            if (!expected[o]) expected[o] = expect(linearised(), detection);
+            if (!mayPass(*expected[o], detection, gate)) continue;
+            const Linearisation pair = linearised();
+            if (!(pair.nis <= gate)) continue;
+            candidates.push_back({d, static_cast<int>(o), pair.nis, logDensity(pair)});
+            measurements.push_back(pair.measurement);
+        }
+    }
+    return {AssociationProblem(static_cast<int>(seen.detections.size()), static_cast<int>(objects.size()),
+                               std::move(candidates)),
+            std::move(measurements)};
+}
+
+}  // namespace slamot
