@@ -41,9 +41,9 @@ TEST(ReadRun, TakesColumnsByName) {
     folder.write("landmarks.csv",
                  "source_id,id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t\n-1,3,7,8,1,0.5,2,12,1.5,1.6\n");
     folder.write("innovations.csv",
-                 "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis\n"
-                 "1.6,cam,mover,-1,4,updated,0.1,0.2,1,0.5,2,0.0625\n"
-                 "1.6,cam,landmark,3,-1,initiated,nan,nan,nan,nan,nan,nan\n");
+                 "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection\n"
+                 "1.6,cam,mover,-1,4,updated,0.1,0.2,1,0.5,2,0.0625,1\n"
+                 "1.6,cam,landmark,3,-1,initiated,nan,nan,nan,nan,nan,nan,0\n");
     const RunRecord run = readRun(folder.path());
     ASSERT_EQ(run.trajectory.size(), 2u);
     EXPECT_EQ(run.trajectory[0].stamp.ticks, 15'000'000);
@@ -66,6 +66,7 @@ TEST(ReadRun, TakesColumnsByName) {
     EXPECT_EQ(run.innovations[0].innovation.outcome, Outcome::updated);
     EXPECT_EQ(run.innovations[0].innovation.kind, ObjectKind::mover);
     EXPECT_EQ(run.innovations[0].innovation.nis, 0.0625);
+    EXPECT_EQ(run.innovations[0].innovation.detection, 1);
     EXPECT_TRUE(std::isnan(run.innovations[1].innovation.nis));
     EXPECT_EQ(run.innovations[1].innovation.landmark, LandmarkId{3});
 }

@@ -155,5 +155,23 @@ TEST(Trajectory, RelativeErrorDoesNotSeeTheFrame) {
     }
 }
 
+TEST(Trajectory, IsComparedAtThePointTruthIsMeasuredAt) {
+    // An antenna 2 m ahead and 1 m to the left of the robot at (10, 0), heading pi / 2: at (9, 2). Its x varies with
+    // the heading by -2 m per rad, its y by -1 m per rad.
+    Truth truth;
+    truth.point = {2, 1};
+    truth.robot = {truePose(0, 9, 2, std::nan(""))};
+    const Matrix3 P = Vector3(1, 4, 0.25).asDiagonal();
+    const auto pairs = pairWithTruth({row(0, 10, 0, pi / 2, P)}, truth).pairs;
+    ASSERT_EQ(pairs.size(), 1u);
+    const PoseGaussian& e = pairs[0].estimate;
+    EXPECT_NEAR((e.mean.position() - pairs[0].truth.position()).norm(), 0, 1e-14);
+    EXPECT_NEAR(e.covariance(0, 0), 1 + 4 * 0.25, 1e-14);
+    EXPECT_NEAR(e.covariance(0, 1), 2 * 0.25, 1e-14);
+    EXPECT_NEAR(e.covariance(1, 1), 4 + 0.25, 1e-14);
+    EXPECT_NEAR(e.covariance(1, 2), -0.25, 1e-14);
+    EXPECT_EQ(e.covariance(2, 2), 0.25);
+}
+
 }  // namespace
 }  // namespace slamot::eval

@@ -89,6 +89,40 @@ TEST_F(TruthFolder, ComesBackAsItWasWritten) {
     EXPECT_THAT(readBytes(path("a.truth/target_4.csv")), HasSubstr("1.0000000,1,1,,,0.5,0,cv\n"));
 }
 
+TEST_F(TruthFolder, TellsHowFarApartItsSamplesMayBe) {
+    Truth truth = smallTruth();
+    truth.max_interpolation_gap = 0.5;
+    EXPECT_TRUE(truth.robotAt(at(1.3)));  // neighbours 0.4 s apart
+    writeTruth(truth, path("a.truth"));
+    EXPECT_TRUE(readTruth(path("a.truth")).robotAt(at(1.3)));
+    EXPECT_EQ(nlohmann::json::parse(readBytes(path("a.truth/truth.json")))["robot"]["gaps"], 0);
+}
+
+TEST_F(TruthFolder, MayBeMeasuredBesideTheRobotsOrigin) {
+    Truth truth;
+    truth.point = {2, 1};
+    truth.robot = {{at(1), {9, 2, pi / 2}}, {at(2), {9, 2, std::nan("")}}};
+    writeTruth(truth, path("a.truth"));
+    const Truth back = readTruth(path("a.truth"));
+    EXPECT_EQ(back.point, Vector2(2, 1));
+    EXPECT_EQ(back.pointAt(at(1))->position(), Vector2(9, 2));
+    // Two metres ahead and one to the left of (10, 0), looking along y.
+    EXPECT_NEAR((back.robotAt(at(1))->position() - Vector2(10, 0)).norm(), 0, 1e-14);
+    EXPECT_TRUE(std::isnan(back.robotAt(at(2))->x));
+    EXPECT_EQ(back.pointAt(at(2))->position(), Vector2(9, 2));
+}
+
+TEST_F(TruthFolder, AHeadingMayBeUnknown) {
+    Truth truth = smallTruth();
+    for (TruePose& sample : truth.robot) sample.pose.theta = std::nan("");
+    writeTruth(truth, path("a.truth"));
+    EXPECT_THAT(readBytes(path("a.truth/robot.csv")), HasSubstr(",\n"));
+    const auto pose = readTruth(path("a.truth")).robotAt(at(1.05));
+    ASSERT_TRUE(pose);
+    EXPECT_TRUE(std::isnan(pose->theta));
+    EXPECT_DOUBLE_EQ(pose->x, 0.5);
+}
+
 TEST_F(TruthFolder, WritingAgainRemovesWhatTheNewTruthLacks) {
     writeTruth(smallTruth(), path("a.truth"));
     Truth less = smallTruth();
@@ -127,6 +161,9 @@ TEST_F(TruthFolder, BadFilesAreNamed) {
     std::filesystem::remove(path("associations.csv"));
     writeBytes(path("truth.json"), "{");
     EXPECT_THAT(messageOf(folder_.string()), HasSubstr("truth.json"));
+    writeBytes(path("truth.json"), R"({"gap_means_longer_than_seconds": 0})");
+    EXPECT_THAT(messageOf(folder_.string()),
+                AllOf(HasSubstr("truth.json"), HasSubstr("is 0"), HasSubstr("positive number of seconds")));
 }
 
 TEST(Truth, FolderBesideTheLog) {

@@ -104,7 +104,7 @@ TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
     EXPECT_EQ(firstLineOf(path("landmarks.csv")), "id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,source_id");
     EXPECT_EQ(firstLineOf(path("landmarks_history.csv")), "t,id,x,y,c_xx,c_xy,c_yy,source_id");
     EXPECT_EQ(firstLineOf(path("innovations.csv")),
-              "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis");
+              "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection");
     EXPECT_EQ(firstLineOf(path("steps.csv")), "t,landmarks,tracks,ms_predict,ms_detect,ms_update");
 }
 

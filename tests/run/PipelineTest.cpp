@@ -302,6 +302,10 @@ TEST_F(PipelineTest, TheTrueStartPoseIsThatOfTheFirstOdometry) {
     EXPECT_THAT(messageOf<ConfigError>([&] { process({odometry(7, {})}); }),
                 HasSubstr("the truth has no robot pose"));
     pipeline.reset();
+    for (TruePose& sample : known.robot) sample.pose.theta = std::nan("");
+    EXPECT_THAT(messageOf<ConfigError>([&] { process({odometry(1, {})}); }),
+                HasSubstr("the truth has no heading of the robot"));
+    pipeline.reset();
     truth = nullptr;
     EXPECT_THAT(messageOf<ConfigError>([&] { process({odometry(1, {})}); }), HasSubstr("no truth was given"));
 }

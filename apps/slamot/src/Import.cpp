@@ -43,7 +43,7 @@ int import(const Options& options, const Verbosity& verbosity) {
 
 std::string formatsInWords() {
     std::string text = "Turn a public dataset into rawlogs and truth.\nFormats:\n";
-    for (const Importer& importer : importers()) text += fmt::format("  {:8} {}\n", importer.format, importer.about);
+    for (const Importer& importer : importers()) text += fmt::format("  {:13} {}\n", importer.format, importer.about);
     return text + "Example: slamot import mrclam MRCLAM_Dataset6 -o mrclam6";
 }
 

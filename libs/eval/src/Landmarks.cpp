@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "slamot/core/association/Assignment.h"
@@ -83,6 +84,28 @@ Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth
     result.extra = static_cast<std::int64_t>(run.landmarks.size()) - result.matched;
     result.position = summariseErrors(errors);
     result.nees = summariseNees(series, options.probability);
+    return result;
+}
+
+Measured<MapCardinality> mapCardinality(const RunRecord& run, const Truth& truth) {
+    using Result = Measured<MapCardinality>;
+    using Seen = Measured<MapCardinality::Seen>;
+    if (run.landmarks.empty()) return Result::absent("the run has no landmarks");
+    if (truth.landmarks.empty()) return Result::absent("truth has no landmarks");
+    MapCardinality result;
+    result.estimated = static_cast<std::int64_t>(run.landmarks.size());
+    result.landmarks = static_cast<std::int64_t>(truth.landmarks.size());
+    result.error = result.estimated - result.landmarks;
+    if (truth.associations.empty() || run.trajectory.empty()) {
+        result.seen = Seen::absent("truth has no associations, which would tell which landmarks were seen");
+        return result;
+    }
+    const Stamp begin = run.trajectory.front().stamp, end = run.trajectory.back().stamp;
+    std::set<SourceId> seen;
+    for (const TrueAssociation& a : truth.associations)
+        if (a.kind == "landmark" && begin <= a.stamp && a.stamp <= end) seen.insert(a.id);
+    const auto count = static_cast<std::int64_t>(seen.size());
+    result.seen = MapCardinality::Seen{count, result.estimated - count};
     return result;
 }
 

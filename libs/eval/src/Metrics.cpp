@@ -1,5 +1,7 @@
 #include "slamot/eval/Metrics.h"
 
+#include <cmath>
+
 namespace slamot::eval {
 
 NeesSeries robotNees(const std::vector<PosePair>& pairs) {
@@ -7,8 +9,12 @@ NeesSeries robotNees(const std::vector<PosePair>& pairs) {
     series.reserve(pairs.size());
     for (const PosePair& pair : pairs) {
         const Pose2& m = pair.estimate.mean;
-        const Vector3 error{m.x - pair.truth.x, m.y - pair.truth.y,
-                            angleDifference(m.theta, pair.truth.theta)};
+        const Vector2 position = m.position() - pair.truth.position();
+        if (std::isnan(pair.truth.theta)) {
+            series.push_back({pair.stamp, nees(position, pair.estimate.covariance.topLeftCorner<2, 2>())});
+            continue;
+        }
+        const Vector3 error{position.x(), position.y(), angleDifference(m.theta, pair.truth.theta)};
         series.push_back({pair.stamp, nees(error, pair.estimate.covariance)});
     }
     return series;
@@ -26,7 +32,11 @@ Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptio
         metrics.robot_nees = Measured<NeesSummary>::absent(*why);
     } else {
         metrics.robot = robotErrors(paired.pairs);
-        metrics.ate = absoluteError(paired.pairs, options.alignment);
+        if (options.alignment == Alignment::first_pose && std::isnan(paired.pairs.front().truth.theta))
+            metrics.ate =
+                Measured<AbsoluteError>::absent("the first true pose has no heading to be aligned by");
+        else
+            metrics.ate = absoluteError(paired.pairs, options.alignment);
         metrics.rpe = relativeError(paired.pairs, options.rpe_delta, options.rpe_unit);
         metrics.robot_nees = summariseNees(robotNees(paired.pairs), options.probability);
     }
@@ -35,6 +45,10 @@ Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptio
     metrics.landmark_set = landmarkSetDistance(run, truth, options);
     metrics.targets = targetMetrics(run, truth, options);
     metrics.track_set = trackSetDistance(run, truth, options);
+    metrics.association = associationMetrics(run, truth);
+    metrics.map_cardinality = mapCardinality(run, truth);
+    metrics.tracking = trackingMetrics(sceneOfAllTargets(run, truth, options), options);
+    metrics.tracking_seen = trackingMetrics(sceneOfSeenTargets(run, truth, options), options);
     return metrics;
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "slamot/eval/Metrics.h"
@@ -88,6 +89,61 @@ Json json(const TrackSetDistance& t) {
     return result;
 }
 
+Json json(const AssociationScores& s) {
+    return {{"recall", number(s.recall)}, {"precision", number(s.precision)}, {"detections", s.detections},
+            {"found", s.found},           {"associated", s.associated},       {"right", s.right},
+            {"clutter", s.clutter}};
+}
+
+Json json(const AssociationMetrics& a) {
+    return {{"all", json(a.all)}, {"landmarks", json(a.landmarks)},   {"movers", json(a.movers)},
+            {"used", a.used},     {"without_truth", a.without_truth}, {"unnumbered", a.unnumbered}};
+}
+
+Json json(const TrackingMetrics& t) {
+    const ClearMot& c = t.clear;
+    const IdentityScores& i = t.identity;
+    const TrajectoryDistance& d = t.trajectories;
+    return {{"stamps", t.stamps},
+            {"stamps_in_gaps", t.stamps_in_gaps},
+            {"set_aside", t.set_aside},
+            {"mota", number(c.mota)},
+            {"motp", number(c.motp)},
+            {"target_stamps", c.target_stamps},
+            {"matched", c.matched},
+            {"misses", c.misses},
+            {"false_positives", c.false_positives},
+            {"switches", c.switches},
+            {"fragmentations", c.fragmentations},
+            {"mostly_tracked", c.mostly_tracked},
+            {"partly_tracked", c.partly_tracked},
+            {"mostly_lost", c.mostly_lost},
+            {"idf1", number(i.idf1)},
+            {"idp", number(i.precision)},
+            {"idr", number(i.recall)},
+            {"id_true_positives", i.true_positives},
+            {"id_false_positives", i.false_positives},
+            {"id_false_negatives", i.false_negatives},
+            {"cardinality",
+             {{"error", t.cardinality.mean},
+              {"absolute_error", t.cardinality.mean_absolute},
+              {"targets", t.cardinality.mean_targets},
+              {"tracks", t.cardinality.mean_tracks}}},
+            {"tgospa",
+             {{"total", d.total},
+              {"lower_bound", d.lower_bound},
+              {"per_stamp", d.per_stamp},
+              {"localisation_part", d.localisation_part},
+              {"missed_part", d.missed_part},
+              {"false_part", d.false_part},
+              {"switch_part", d.switch_part},
+              {"switches", d.switches}}}};
+}
+
+Json json(const MapCardinality::Seen& s) {
+    return {{"landmarks", s.landmarks}, {"error", s.error}, {"absolute_error", std::abs(s.error)}};
+}
+
 /// Puts the metric at `place`[`name`], or the reason at `absent`[`path`].
 template <class T>
 void put(Json& place, const std::string& name, const Measured<T>& metric, Json& absent,
@@ -125,6 +181,15 @@ Json json(const TargetMetrics& t, Json& absent) {
     return result;
 }
 
+Json json(const MapCardinality& m, Json& absent) {
+    Json result = {{"estimated", m.estimated},
+                   {"landmarks", m.landmarks},
+                   {"error", m.error},
+                   {"absolute_error", std::abs(m.error)}};
+    put(result, "seen", m.seen, absent, "map_cardinality.seen");
+    return result;
+}
+
 Json json(const LandmarkErrors& l, Json& absent) {
     Json result = {{"matching", toText(l.matching)},
                    {"matched", l.matched},
@@ -152,6 +217,14 @@ nlohmann::json toJson(const Metrics& m) {
     put(result, "nis", m.nis, absent, "nis");
     put(result, "landmark_set", m.landmark_set, absent, "landmark_set");
     put(result, "track_set", m.track_set, absent, "track_set");
+    put(result, "association", m.association, absent, "association");
+    put(result["tracking"], "all", m.tracking, absent, "tracking.all");
+    put(result["tracking"], "seen", m.tracking_seen, absent, "tracking.seen");
+    if (result["tracking"].is_null()) result.erase("tracking");
+    if (m.map_cardinality)
+        result["map_cardinality"] = json(*m.map_cardinality, absent);
+    else
+        absent["map_cardinality"] = m.map_cardinality.whyAbsent();
     if (m.landmarks)
         result["landmarks"] = json(*m.landmarks, absent);
     else

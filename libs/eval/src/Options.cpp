@@ -53,10 +53,14 @@ ParameterTable describe(EvaluationOptions& o) {
                 "how estimated landmarks find their truth; auto takes source ids if there are any")
         .real("landmark_cutoff", o.landmark_cutoff, "m", Interval::positive(),
               "largest distance of a pair when landmarks are matched by assignment")
-        .real("set_order", o.set_order, "", Interval::atLeast(1), "order p of OSPA and GOSPA")
-        .real("set_cutoff", o.set_cutoff, "m", Interval::positive(), "cutoff c of OSPA and GOSPA")
+        .real("set_order", o.set_order, "", Interval::atLeast(1), "order p of OSPA, GOSPA and T-GOSPA")
+        .real("set_cutoff", o.set_cutoff, "m", Interval::positive(), "cutoff c of OSPA, GOSPA and T-GOSPA")
+        .real("switch_penalty", o.switch_penalty, "m", Interval::positive(),
+              "what T-GOSPA asks for a target that goes on with another track")
+        .real("target_gate", o.target_gate, "m", Interval::positive(),
+              "largest distance of a track from the target it follows, for MOTA, MOTP, IDF1 and their like")
         .real("min_existence", o.min_existence, "", Interval::probability(),
-              "tracks less likely to exist are left out of OSPA and GOSPA");
+              "tracks less likely to exist are left out of OSPA, GOSPA, T-GOSPA, MOTA, IDF1 and cardinality");
     return table;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slamot/core/association/Assignment.h"
+#include "slamot/eval/TrackingScene.h"
 
 namespace slamot::eval {
 namespace {
@@ -77,15 +78,9 @@ void add(SetDistance& sum, const SetDistance& d, double weight) {
     sum.gospa.false_count += weight * d.gospa.false_count;
 }
 
-/// Positions of the targets present at `stamp`; nothing if one of them has a gap there.
-std::optional<Points> trueTargets(const Truth& truth, Stamp stamp) {
+Points positionsOf(const std::vector<SceneObject>& objects) {
     Points points;
-    for (const auto& [id, samples] : truth.targets) {
-        if (samples.empty() || stamp < samples.front().stamp || stamp > samples.back().stamp) continue;
-        const auto target = truth.targetAt(id, stamp);
-        if (!target) return std::nullopt;
-        points.push_back(target->position);
-    }
+    for (const SceneObject& object : objects) points.push_back(object.position);
     return points;
 }
 
@@ -93,28 +88,16 @@ std::optional<Points> trueTargets(const Truth& truth, Stamp stamp) {
 
 Measured<TrackSetDistance> trackSetDistance(const RunRecord& run, const Truth& truth,
                                             const EvaluationOptions& options) {
-    using Result = Measured<TrackSetDistance>;
-    // A run without a track has missed every target, which is what the distance is to tell.
-    if (truth.targets.empty()) return Result::absent("truth has no targets");
-    if (run.trajectory.empty()) return Result::absent("the run has no trajectory");
-
+    const Measured<TrackingScene> scene = sceneOfAllTargets(run, truth, options);
+    if (!scene) return Measured<TrackSetDistance>::absent(scene.whyAbsent());
     TrackSetDistance result;
-    std::vector<SetDistance> distances;
-    for (const RobotRow& row : run.trajectory) {
-        const auto truths = trueTargets(truth, row.stamp);
-        if (!truths) {
-            ++result.stamps_in_gaps;
-            continue;
-        }
-        Points estimates;
-        if (const auto found = run.tracks.find(row.stamp); found != run.tracks.end())
-            for (const TrackEstimate& track : found->second)
-                if (track.existence >= options.min_existence) estimates.push_back(track.mean.head<2>());
-        distances.push_back(setDistance(estimates, *truths, options.set_order, options.set_cutoff));
-    }
-    if (distances.empty()) return Result::absent("truth of the targets has a gap at every stamp of the run");
-    result.stamps = static_cast<std::int64_t>(distances.size());
-    for (const SetDistance& d : distances) add(result.mean, d, 1 / static_cast<double>(distances.size()));
+    result.stamps = static_cast<std::int64_t>(scene->frames.size());
+    result.stamps_in_gaps = scene->stamps_in_gaps;
+    for (const SceneFrame& frame : scene->frames)
+        add(result.mean,
+            setDistance(positionsOf(frame.tracks), positionsOf(frame.targets), options.set_order,
+                        options.set_cutoff),
+            1 / static_cast<double>(result.stamps));
     return result;
 }
 

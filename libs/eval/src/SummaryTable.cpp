@@ -122,6 +122,60 @@ Block setBlock(const Metrics& m) {
     return block;
 }
 
+Block associationBlock(const Metrics& m) {
+    Block block("Data association", {"recall", "precis.", "detect.", "assoc.", "clutter"});
+    if (!m.association) return block;
+    const auto row = [&block](const std::string& name, const AssociationScores& s) {
+        if (s.detections + s.associated > 0)
+            block.row(name, {percent(s.recall), percent(s.precision), fmt::format("{}", s.detections),
+                             fmt::format("{}", s.associated), fmt::format("{}", s.clutter)});
+    };
+    row("landmarks", m.association->landmarks);
+    row("movers", m.association->movers);
+    return block;
+}
+
+/// Both sets of targets under one head.
+template <class Cells>
+Block trackingBlock(const Metrics& m, const std::string& title, const std::vector<std::string>& heads,
+                    Cells cells) {
+    Block block(title, heads);
+    if (m.tracking) block.row("all targets", cells(*m.tracking));
+    if (m.tracking_seen) block.row("targets while seen", cells(*m.tracking_seen));
+    return block;
+}
+
+Block clearBlock(const Metrics& m) {
+    return trackingBlock(m, fmt::format("Tracking, gate {:.4g} m", m.options.target_gate),
+                         {"MOTA", "MOTP", "misses", "false", "switches"}, [](const TrackingMetrics& t) {
+                             const ClearMot& c = t.clear;
+                             return std::vector<std::string>{
+                                 percent(c.mota), cell(c.motp), fmt::format("{}", c.misses),
+                                 fmt::format("{}", c.false_positives), fmt::format("{}", c.switches)};
+                         });
+}
+
+Block identityBlock(const Metrics& m) {
+    return trackingBlock(m, "Identities", {"IDF1", "IDP", "IDR", "fragm.", "tr./lost"},
+                         [](const TrackingMetrics& t) {
+                             return std::vector<std::string>{
+                                 percent(t.identity.idf1), percent(t.identity.precision),
+                                 percent(t.identity.recall), fmt::format("{}", t.clear.fragmentations),
+                                 fmt::format("{}/{}", t.clear.mostly_tracked, t.clear.mostly_lost)};
+                         });
+}
+
+Block trajectoryBlock(const Metrics& m) {
+    return trackingBlock(m, fmt::format("T-GOSPA, gamma {:.3g} m; cardinality", m.options.switch_penalty),
+                         {"a stamp", "switches", "bound", "error", "abs.err"}, [](const TrackingMetrics& t) {
+                             const TrajectoryDistance& d = t.trajectories;
+                             return std::vector<std::string>{
+                                 cell(d.per_stamp), cell(d.switches),
+                                 d.total == d.lower_bound ? "exact" : percent(d.lower_bound / d.total),
+                                 cell(t.cardinality.mean), cell(t.cardinality.mean_absolute)};
+                         });
+}
+
 /// Words on lines of at most `width` columns, those after the first indented by four.
 std::string wrapped(const std::string& text) {
     std::istringstream in(text);
@@ -161,6 +215,11 @@ std::string absences(const Metrics& m) {
     if (m.targets) add("target NEES", m.targets->all.nees);
     if (m.targets) add("target errors while seen", m.targets->seen);
     add("target OSPA and GOSPA", m.track_set);
+    add("association recall and precision", m.association);
+    add("tracking metrics", m.tracking);
+    add("tracking metrics of targets while seen", m.tracking_seen);
+    add("map cardinality", m.map_cardinality);
+    if (m.map_cardinality) add("map cardinality against landmarks seen", m.map_cardinality->seen);
     std::string text;
     for (const auto& [names, reason] : reasons) text += wrapped(fmt::format("No {}: {}.", names, reason));
     return text.empty() ? "" : "\n" + text;
@@ -186,7 +245,14 @@ std::string summaryTable(const Metrics& m) {
                                 "{} doubled.",
                                 m.targets->matched, m.targets->missed, m.targets->without_truth,
                                 m.targets->without_source, m.targets->doubled));
-    for (const Block& block : {errorBlock(m), consistencyBlock(m), innovationBlock(m), setBlock(m)})
+    if (m.map_cardinality)
+        text += wrapped(fmt::format(
+            "Landmarks in the map: {}, {:+} against all{}.", m.map_cardinality->estimated,
+            m.map_cardinality->error,
+            m.map_cardinality->seen ? fmt::format(", {:+} against those seen", m.map_cardinality->seen->error)
+                                    : std::string()));
+    for (const Block& block : {errorBlock(m), consistencyBlock(m), innovationBlock(m), setBlock(m),
+                               associationBlock(m), clearBlock(m), identityBlock(m), trajectoryBlock(m)})
         text += block.text();
     return text + absences(m);
 }

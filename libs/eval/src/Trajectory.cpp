@@ -2,11 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "StampUnits.h"
 
 namespace slamot::eval {
+namespace {
+
+/// The robot's pose carried to a point of it, p' = p + R(theta) point; the heading stays.
+PoseGaussian carriedTo(const Vector2& point, const PoseGaussian& robot) {
+    const Pose2& mean = robot.mean;
+    const Vector2 place = mean * point, arm = place - mean.position();
+    Matrix3 J = Matrix3::Identity();
+    J.topRightCorner<2, 1>() << -arm.y(), arm.x();
+    return {{place.x(), place.y(), mean.theta}, J * robot.covariance * J.transpose()};
+}
+
+}  // namespace
 
 PairedTrajectory pairWithTruth(const std::vector<RobotRow>& trajectory, const Truth& truth) {
     PairedTrajectory paired;
@@ -16,7 +29,10 @@ PairedTrajectory pairWithTruth(const std::vector<RobotRow>& trajectory, const Tr
     for (const RobotRow& row : trajectory) {
         if (row.stamp < first || row.stamp > last) continue;
         ++paired.counts.covered;
-        if (const auto pose = truth.robotAt(row.stamp)) paired.pairs.push_back({row.stamp, row.robot, *pose});
+        const auto pose = truth.pointAt(row.stamp);
+        if (!pose) continue;
+        const bool at_origin = truth.point.isZero(0);
+        paired.pairs.push_back({row.stamp, at_origin ? row.robot : carriedTo(truth.point, row.robot), *pose});
     }
     paired.counts.matched = static_cast<std::int64_t>(paired.pairs.size());
     return paired;
@@ -43,7 +59,7 @@ std::optional<std::string> whyTooFew(const PairedTrajectory& paired, const std::
         "only {} of the {} estimates within truth's span have a truth, expected at least {} of them: truth "
         "is not "
         "interpolated across gaps of more than {} s",
-        n.matched, n.covered, min_matched, Truth::max_interpolation_gap);
+        n.matched, n.covered, min_matched, truth.max_interpolation_gap);
 }
 
 namespace {
@@ -102,6 +118,10 @@ AbsoluteError absoluteError(const std::vector<PosePair>& pairs, Alignment alignm
 }
 
 Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double delta, RelativeUnit unit) {
+    const auto has_heading = [](const PosePair& pair) { return std::isfinite(pair.truth.theta); };
+    if (std::none_of(pairs.begin(), pairs.end(), has_heading))
+        return Measured<RelativeError>::absent(
+            "truth has no headings, without which no pose is relative to another");
     // Where each pose stands on the axis that delta is measured on: time since the start, or true path
     // length.
     std::vector<double> along(pairs.size(), 0.0);
@@ -118,7 +138,8 @@ Measured<RelativeError> relativeError(const std::vector<PosePair>& pairs, double
         while (j < pairs.size() && along[j] - along[i] < delta * (1 - rounding)) ++j;
         if (j == pairs.size()) break;
         const double length = along[j] - along[i];
-        if (length > delta * (1 + most_overshoot)) continue;
+        if (length > delta * (1 + most_overshoot) || !has_heading(pairs[i]) || !has_heading(pairs[j]))
+            continue;
         const Pose2 estimated = inverse(pairs[i].estimate.mean) * pairs[j].estimate.mean;
         const Pose2 truly = inverse(pairs[i].truth) * pairs[j].truth;
         const Pose2 error = inverse(truly) * estimated;

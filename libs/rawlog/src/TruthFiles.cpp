@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* gap_key = "gap_means_longer_than_seconds";
 const std::string target_prefix = "target_", target_suffix = ".csv";
 
 /// The stamp of this row, which must be later than `last`'s.
@@ -39,9 +40,11 @@ std::vector<TruePose> readRobot(const std::string& file) {
     CsvReader csv(file);
     const int t = csv.column("t"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
     std::vector<TruePose> poses;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
     while (csv.next())
         poses.push_back(
-            {risingStamp(csv, t, poses), {finite(csv, x), finite(csv, y), wrapAngle(finite(csv, theta))}});
+            {risingStamp(csv, t, poses),
+             {finite(csv, x), finite(csv, y), csv.empty(theta) ? unknown : wrapAngle(finite(csv, theta))}});
     return poses;
 }
 
@@ -115,14 +118,22 @@ void readNotes(const std::string& file, Truth& truth) {
         truth.frame = notes.value("frame", truth.frame);
         truth.source = notes.value("source", truth.source);
         truth.position_std = notes.value("position_std", truth.position_std);
+        if (notes.contains("point_on_robot"))
+            truth.point = {notes["point_on_robot"].at(0).get<double>(),
+                           notes["point_on_robot"].at(1).get<double>()};
+        truth.max_interpolation_gap = notes.value(gap_key, truth.max_interpolation_gap);
     } catch (const json::exception& error) {
         // The reason stands after the library's own name for it, in brackets.
-        const std::string what = error.what(), reason = what.substr(std::min(what.size(), what.find("] ") + 2));
+        const std::string what = error.what(),
+                          reason = what.substr(std::min(what.size(), what.find("] ") + 2));
         throw LogError(
-            fmt::format("{}: expected a JSON object with texts 'frame' and 'source' and the number "
-                        "'position_std' ({})",
-                        file, reason));
+            fmt::format("{}: expected a JSON object with texts 'frame' and 'source', numbers 'position_std' "
+                        "and '{}' and a pair of numbers 'point_on_robot' ({})",
+                        file, gap_key, reason));
     }
+    if (!(truth.max_interpolation_gap > 0))
+        throw LogError(fmt::format("{}: '{}' is {}, expected a positive number of seconds", file, gap_key,
+                                   truth.max_interpolation_gap));
 }
 
 /// A file written whole: an error while writing is reported, not swallowed.
@@ -157,7 +168,7 @@ void writeRobot(const std::vector<TruePose>& robot, const fs::path& file) {
         appendField(line, stamp);
         appendField(line, pose.x);
         appendField(line, pose.y);
-        appendField(line, pose.theta);
+        appendKnown(line, pose.theta);
         out.line(line);
     }
     out.close();
@@ -206,12 +217,12 @@ void writeAssociations(const std::vector<TrueAssociation>& associations, const f
 
 /// Number of samples, and of gaps that are not interpolated across, with the largest.
 template <class Sample>
-json coverage(const std::vector<Sample>& samples) {
+json coverage(const std::vector<Sample>& samples, double max_gap) {
     std::int64_t gaps = 0;
     double largest = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const double step = secondsBetween(samples[i - 1].stamp, samples[i].stamp);
-        if (step > Truth::max_interpolation_gap) ++gaps;
+        if (step > max_gap) ++gaps;
         largest = std::max(largest, step);
     }
     return {{"samples", samples.size()}, {"gaps", gaps}, {"largest_step_seconds", largest}};
@@ -221,13 +232,14 @@ void writeNotes(const Truth& truth, const fs::path& file) {
     json notes = {{"frame", truth.frame},
                   {"source", truth.source},
                   {"position_std", truth.position_std},
-                  {"gap_means_longer_than_seconds", Truth::max_interpolation_gap},
+                  {"point_on_robot", {truth.point.x(), truth.point.y()}},
+                  {gap_key, truth.max_interpolation_gap},
                   {"landmarks", truth.landmarks.size()},
                   {"associations", truth.associations.size()},
-                  {"robot", coverage(truth.robot)},
+                  {"robot", coverage(truth.robot, truth.max_interpolation_gap)},
                   {"targets", json::object()}};
     for (const auto& [id, samples] : truth.targets)
-        notes["targets"][std::to_string(id.value)] = coverage(samples);
+        notes["targets"][std::to_string(id.value)] = coverage(samples, truth.max_interpolation_gap);
     TextFile out(file);
     out.line(notes.dump(2));
     out.close();

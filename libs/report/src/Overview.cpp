@@ -246,8 +246,8 @@ ErrorCurve errorCurve(const eval::RunRecord& run, const Truth& truth) {
     bool covariance_known = false;
     for (const eval::RobotRow& row : run.trajectory) {
         const double t = secondsBetween(run.trajectory.front().stamp, row.stamp);
-        const std::optional<Pose2> pose = truth.robotAt(row.stamp);
-        const double error = pose ? (row.robot.mean.position() - pose->position()).norm() : nan;
+        const std::optional<Pose2> pose = truth.pointAt(row.stamp);
+        const double error = pose ? (row.robot.mean * truth.point - pose->position()).norm() : nan;
         if (pose) {
             squares += error * error;
             ++count;

@@ -95,7 +95,7 @@ void LandmarksHistorySink::step(const Step& step) {
 }
 
 InnovationsSink::InnovationsSink(const std::string& folder) : csv_(folder + "/innovations.csv") {
-    csv_.line("t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis");
+    csv_.line("t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection");
 }
 
 void InnovationsSink::step(const Step& step) {
@@ -105,7 +105,8 @@ void InnovationsSink::step(const Step& step) {
                       std::string_view(set.sensors[set.detections[i.detection].sensor].label),
                       std::string_view(slamot::toText(i.kind)), i.landmark.value, i.track.value,
                       std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(),
-                      i.covariance(0, 0), i.covariance(0, 1), i.covariance(1, 1), i.nis));
+                      i.covariance(0, 0), i.covariance(0, 1), i.covariance(1, 1), i.nis,
+                      static_cast<std::int64_t>(i.detection)));
 }
 
 StepsSink::StepsSink(const std::string& folder) : csv_(folder + "/steps.csv") {

@@ -240,9 +240,11 @@ void Pipeline::start(Stamp stamp) {
             break;
         case StartPose::truth: {
             const auto pose = truth_ ? truth_->robotAt(stamp) : std::nullopt;
-            if (!pose)
+            if (!pose || std::isnan(pose->theta))
                 throw ConfigError(fmt::format("[start] pose = truth, but {} at {}, where the run starts",
-                                              truth_ ? "the truth has no robot pose" : "no truth was given",
+                                              !truth_ ? "no truth was given"
+                                              : pose  ? "the truth has no heading of the robot"
+                                                      : "the truth has no robot pose",
                                               slamot::toText(stamp)));
             begin.pose.mean = *pose;
             break;

@@ -27,6 +27,13 @@ std::vector<std::string> namesOfMetrics() {
     }();
     whole.landmark_set = eval::SetDistance{};
     whole.track_set = eval::TrackSetDistance{};
+    whole.association = eval::AssociationMetrics{};
+    whole.map_cardinality = [] {
+        eval::MapCardinality cardinality;
+        cardinality.seen = eval::MapCardinality::Seen{};
+        return cardinality;
+    }();
+    whole.tracking = whole.tracking_seen = eval::TrackingMetrics{};
     whole.targets = [] {
         eval::TargetErrors errors;
         errors.nees = eval::NeesSummary{};
@@ -83,7 +90,10 @@ FigureUnit unitOf(const std::string& figure) {
     if (words.size() == 1) return unitOfSeries(figure);
     if (words[0] == "cost") return unitOfCost(words[1]);
     const std::string last = words.back(), of = words[words.size() - 2];
-    if (last == "inside" || last == "coverage") return {Dimension::part, 1};
+    if (contains({"inside", "coverage", "recall", "precision", "mota", "idf1", "idp", "idr"}, last))
+        return {Dimension::part, 1};
+    if (last == "motp") return {Dimension::length, 1};
+    if (of == "tgospa" && contains({"total", "lower_bound", "per_stamp"}, last)) return {Dimension::length, 1};
     if (contains({"rmse", "mean", "median", "maximum", "final"}, last)) {
         if (contains({"position", "relative_position", "x", "y"}, of)) return {Dimension::length, 1};
         if (of == "heading") return {Dimension::angle, 1};

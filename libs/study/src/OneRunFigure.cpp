@@ -9,6 +9,7 @@
 #include <set>
 
 #include "slamot/core/data/Angle.h"
+#include "slamot/eval/Trajectory.h"
 #include "slamot/report/Overview.h"
 
 namespace slamot::study {
@@ -88,19 +89,16 @@ std::vector<Panel> robotPanels(const OneRun& run) {
     Ways ways;
     ErrorCourse x{"error in x", "m", {}, {}, {}}, y{"error in y", "m", {}, {}, {}},
         heading{"error of heading", "rad", {}, {}, {}};
-    for (const eval::RobotRow& row : run.record.trajectory) {
-        const auto truth = run.truth->robotAt(row.stamp);
-        if (!truth) continue;
-        const Pose2& mean = row.robot.mean;
+    for (const auto& [stamp, estimate, truth] : eval::pairWithTruth(run.record.trajectory, *run.truth).pairs) {
+        const Pose2& mean = estimate.mean;
         ways.estimated.push_back(mean.position());
-        ways.true_ones.push_back(truth->position());
-        const double errors[] = {mean.x - truth->x, mean.y - truth->y,
-                                 angleDifference(mean.theta, truth->theta)};
+        ways.true_ones.push_back(truth.position());
+        const double errors[] = {mean.x - truth.x, mean.y - truth.y, angleDifference(mean.theta, truth.theta)};
         ErrorCourse* courses[] = {&x, &y, &heading};
         for (int k = 0; k < 3; ++k) {
-            courses[k]->seconds.push_back(secondsBetween(run.record.trajectory.front().stamp, row.stamp));
+            courses[k]->seconds.push_back(secondsBetween(run.record.trajectory.front().stamp, stamp));
             courses[k]->error.push_back(errors[k]);
-            courses[k]->sigma.push_back(std::sqrt(row.robot.covariance(k, k)));
+            courses[k]->sigma.push_back(std::sqrt(estimate.covariance(k, k)));
         }
     }
     return {panelOf(ways, "robot", colour::blue), panelOf(x), panelOf(y), panelOf(heading)};

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
+#include <map>
+#include <utility>
 
 #include "slamot/rawlog/LogError.h"
 
@@ -23,12 +22,11 @@ Pose2 moved(const Pose2& pose, const BodyVelocity& velocity, double seconds) {
 
 std::vector<int> ImportedLog::write(const std::string& file, const std::function<bool(double)>& progress,
                                     double begin, double end) const {
-    std::vector<std::size_t> order(detections.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) {
-        const Detection &a = detections[i], &b = detections[j];
-        return std::tie(a.stamp, a.label) < std::tie(b.stamp, b.label);
-    });
+    // Scans in the order of the log, each with its detections.
+    std::map<std::pair<Stamp, std::string>, std::vector<std::size_t>> scans;
+    for (std::size_t i = 0; i < detections.size(); ++i)
+        scans[{detections[i].stamp, detections[i].label}].push_back(i);
+    for (const Stamp stamp : empty_scans) scans[{stamp, empty_label}];
 
     RawlogWriter writer(file);
     std::vector<int> index_in_stamp(detections.size());
@@ -47,23 +45,24 @@ std::vector<int> ImportedLog::write(const std::string& file, const std::function
             writer.write(*toMrpt(odometry[next_odometry], "odometry"));
     };
     int index = 0;
-    for (std::size_t i = 0; i < order.size();) {
-        const Detection& first = detections[order[i]];
-        if (i > 0 && detections[order[i - 1]].stamp != first.stamp) index = 0;
-        writeOdometryUpTo(first.stamp);
+    const Stamp* last_stamp = nullptr;
+    for (const auto& [key, indices] : scans) {
+        const auto& [stamp, label] = key;
+        if (!last_stamp || *last_stamp != stamp) index = 0;
+        last_stamp = &stamp;
+        writeOdometryUpTo(stamp);
         RangeBearingReading reading;
-        reading.stamp = first.stamp;
+        reading.stamp = stamp;
         reading.sensor = sensor;
-        reading.sensor.label = first.label;
-        for (; i < order.size(); ++i, count()) {
-            const Detection& d = detections[order[i]];
-            if (d.stamp != first.stamp || d.label != first.label) break;
+        reading.sensor.label = label;
+        for (const std::size_t i : indices) {
             RangeBearingReading::Item item;
-            item.range = d.range;
-            item.bearing = d.bearing;
-            item.id = d.id;
+            item.range = detections[i].range;
+            item.bearing = detections[i].bearing;
+            item.id = detections[i].id;
             reading.items.push_back(item);
-            index_in_stamp[order[i]] = index++;
+            index_in_stamp[i] = index++;
+            count();
         }
         writer.write(*toMrpt(reading, std_range, std_bearing));
     }

@@ -30,6 +30,9 @@ class ImportedLog {
 
     std::vector<OdometryReading> odometry;  ///< rising stamps
     std::vector<Detection> detections;      ///< of one stamp in any order; stamps need not rise
+    /// The sensor looked at these stamps under `empty_label` and saw nothing.
+    std::vector<Stamp> empty_scans;
+    std::string empty_label;
     /// All detections are one sensor's, whatever label they get.
     RangeBearingSensor sensor;
     double std_range = 0, std_bearing = 0;

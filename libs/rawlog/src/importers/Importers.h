@@ -5,6 +5,8 @@
 namespace slamot {
 
 ImportResult importMrclam(const std::string& in, const std::string& out, const ImportProgress& progress);
+ImportResult importVictoriaPark(const std::string& in, const std::string& out,
+                                const ImportProgress& progress);
 ImportResult importCsv(const std::string& in, const std::string& out, const ImportProgress& progress);
 
 }  // namespace slamot

@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <tuple>
 
+#include "Columns.h"
 #include "ImportedLog.h"
 #include "Importers.h"
-#include "slamot/core/config/Parameters.h"
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot {
@@ -32,68 +28,19 @@ constexpr double claimed_std_range = 0.15, claimed_std_bearing = 0.02;
 constexpr double min_range = 0.5, max_range = 10.0, field_of_view = 1.2;
 constexpr double capture_std = 0.001;  // "on the order of 1e-3 m", Leung et al.
 
-/// One line of a table: fields between blanks.
-class Row {
-  public:
-    Row(std::string place, std::vector<std::string> fields)
-        : place_(std::move(place)), fields_(std::move(fields)) {}
-
-    Stamp stamp(std::size_t i) const {
-        try {
-            return stampFromText(fields_[i]);
-        } catch (const std::invalid_argument&) {
-            fail(i, "a time in decimal seconds");
-        }
-    }
-    double number(std::size_t i) const {
-        const auto value = numberFromText(fields_[i]);
-        if (!value || !std::isfinite(*value)) fail(i, "a finite number");
-        return *value;
-    }
-    std::int64_t integer(std::size_t i) const {
-        const double value = number(i);
-        if (value != std::floor(value) || std::abs(value) > 1e9) fail(i, "an integer");
-        return static_cast<std::int64_t>(value);
-    }
-
-  private:
-    [[noreturn]] void fail(std::size_t i, const std::string& expected) const {
-        throw LogError(fmt::format("{}: field {} is '{}', expected {}", place_, i + 1, fields_[i], expected));
-    }
-
-    std::string place_;
-    std::vector<std::string> fields_;
-};
-
-void forEachRow(const fs::path& file, std::size_t columns, const std::function<void(const Row&)>& take) {
-    std::ifstream in(file);
-    if (!in || !fs::is_regular_file(file))
-        throw LogError(
-            fmt::format("{}: cannot be opened, expected a table of the MRCLAM dataset", file.string()));
-    std::string line;
-    for (std::int64_t number = 1; std::getline(in, line); ++number) {
-        std::istringstream words(line.substr(0, line.find('#')));
-        std::vector<std::string> fields;
-        for (std::string word; words >> word;) fields.push_back(word);
-        if (fields.empty()) continue;
-        const std::string place = fmt::format("{}:{}", file.string(), number);
-        if (fields.size() < columns)
-            throw LogError(fmt::format("{}: has {} fields, expected {}", place, fields.size(), columns));
-        take(Row(place, std::move(fields)));
-    }
-}
+constexpr const char* dataset = "the MRCLAM dataset";
 
 /// Subject of each bar code: the measurements give the code, not the subject their header promises.
 std::map<std::int64_t, std::int64_t> readBarcodes(const fs::path& folder) {
     std::map<std::int64_t, std::int64_t> subjects;
-    forEachRow(folder / "Barcodes.dat", 2,
-               [&](const Row& row) { subjects[row.integer(1)] = row.integer(0); });
+    forEachRow(folder / "Barcodes.dat", 2, dataset,
+               [&](const ColumnRow& row) { subjects[row.integer(1)] = row.integer(0); });
     return subjects;
 }
 
 std::map<SourceId, Vector2> readLandmarks(const fs::path& folder) {
     std::map<SourceId, Vector2> landmarks;
-    forEachRow(folder / "Landmark_Groundtruth.dat", 3, [&](const Row& row) {
+    forEachRow(folder / "Landmark_Groundtruth.dat", 3, dataset, [&](const ColumnRow& row) {
         landmarks[SourceId{row.integer(0)}] = {row.number(1), row.number(2)};
     });
     return landmarks;
@@ -101,7 +48,7 @@ std::map<SourceId, Vector2> readLandmarks(const fs::path& folder) {
 
 std::vector<TruePose> readTruePoses(const fs::path& file) {
     std::vector<TruePose> poses;
-    forEachRow(file, 4, [&](const Row& row) {
+    forEachRow(file, 4, dataset, [&](const ColumnRow& row) {
         const Stamp stamp = row.stamp(0);
         if (!poses.empty() && stamp <= poses.back().stamp) return;
         poses.push_back({stamp, {row.number(1), row.number(2), wrapAngle(row.number(3))}});
@@ -117,7 +64,7 @@ struct Command {
 /// The last of those with one stamp; `doubled` counts the others.
 std::vector<Command> readCommands(const fs::path& file, std::int64_t& doubled) {
     std::vector<Command> commands;
-    forEachRow(file, 3, [&](const Row& row) {
+    forEachRow(file, 3, dataset, [&](const ColumnRow& row) {
         const Command command{row.stamp(0), row.number(1), row.number(2)};
         if (!commands.empty() && command.stamp < commands.back().stamp)
             throw LogError(fmt::format("{}: time goes back to {}, expected rising times", file.string(),
@@ -152,7 +99,7 @@ std::vector<ImportedLog::Detection> readDetections(const fs::path& file,
                                                    const std::map<std::int64_t, std::int64_t>& subjects,
                                                    int robot, Counts& counts) {
     std::vector<ImportedLog::Detection> detections;
-    forEachRow(file, 4, [&](const Row& row) {
+    forEachRow(file, 4, dataset, [&](const ColumnRow& row) {
         const auto subject = subjects.find(row.integer(1));
         ImportedLog::Detection d{row.stamp(0), "landmarks", row.number(2), row.number(3), {}};
         if (subject == subjects.end()) {

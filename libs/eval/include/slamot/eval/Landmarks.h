@@ -21,4 +21,15 @@ struct LandmarkErrors {
 Measured<LandmarkErrors> landmarkErrors(const RunRecord& run, const Truth& truth,
                                         const EvaluationOptions& options);
 
+/// Number of landmarks in the map at the end of the run minus number of true ones.
+struct MapCardinality {
+    std::int64_t estimated = 0, landmarks = 0, error = 0;
+    /// Against those alone that a detection came from while the run lasted, as truth's associations tell.
+    struct Seen {
+        std::int64_t landmarks = 0, error = 0;
+    };
+    Measured<Seen> seen;
+};
+Measured<MapCardinality> mapCardinality(const RunRecord& run, const Truth& truth);
+
 }  // namespace slamot::eval

@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "slamot/eval/Association.h"
 #include "slamot/eval/Consistency.h"
 #include "slamot/eval/Landmarks.h"
 #include "slamot/eval/Nis.h"
 #include "slamot/eval/Options.h"
 #include "slamot/eval/SetDistance.h"
+#include "slamot/eval/Tracking.h"
 #include "slamot/eval/Tracks.h"
 #include "slamot/eval/Trajectory.h"
 
@@ -26,11 +28,16 @@ struct Metrics {
     Measured<SetDistance> landmark_set;
     Measured<TargetMetrics> targets;
     Measured<TrackSetDistance> track_set;
+    Measured<AssociationMetrics> association;
+    Measured<MapCardinality> map_cardinality;
+    /// Against every target, and against targets while they are seen.
+    Measured<TrackingMetrics> tracking, tracking_seen;
 };
 
 Metrics evaluate(const RunRecord& run, const Truth& truth, const EvaluationOptions& options);
 
-/// NEES of the robot's pose, step by step: what consistencyOverRuns takes.
+/// NEES of the robot's pose, step by step: what consistencyOverRuns takes. Of the position alone where truth
+/// has no heading.
 NeesSeries robotNees(const std::vector<PosePair>& pairs);
 
 /// For summary.json: metres, seconds, radians. Numbers that do not exist are null; metrics that do not are

@@ -33,9 +33,11 @@ struct EvaluationOptions {
     double probability = 0.95;  ///< of chi-square bands and of coverage
     Matching landmark_matching = Matching::automatic;
     double landmark_cutoff = 2.0;  ///< [m], matching by assignment
-    double set_order = 2.0;        ///< p of OSPA and GOSPA
-    double set_cutoff = 5.0;       ///< c of OSPA and GOSPA [m]
-    double min_existence = 0.5;    ///< tracks below are not part of the set of targets
+    double set_order = 2.0;        ///< p of OSPA, GOSPA and T-GOSPA
+    double set_cutoff = 5.0;       ///< c of OSPA, GOSPA and T-GOSPA [m]
+    double switch_penalty = 2.0;   ///< gamma of T-GOSPA [m]
+    double target_gate = 2.0;    ///< [m], largest distance of a track from the target it follows: MOTA, IDF1
+    double min_existence = 0.5;  ///< tracks below are not part of the set of targets
 };
 ParameterTable describe(EvaluationOptions& options);
 

@@ -12,6 +12,7 @@
 
 namespace slamot::eval {
 
+/// Both of the point that truth is measured at.
 struct PosePair {
     Stamp stamp;
     PoseGaussian estimate;

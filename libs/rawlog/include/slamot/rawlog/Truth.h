@@ -13,6 +13,7 @@ namespace slamot {
 
 struct TruePose {
     Stamp stamp;
+    /// The heading is NaN where it is not known, as with GPS.
     Pose2 pose;
 };
 
@@ -40,10 +41,15 @@ struct Truth {
     /// truth.json: where it comes from and how good it is.
     std::string frame = "world", source;
     double position_std = 0;
+    /// The point of the robot that `robot` is measured at, in the robot's frame [m]: a GPS antenna's place.
+    Vector2 point = Vector2::Zero();
 
     /// Neighbours further apart than this are a gap: nothing is interpolated across it. A single sample
     /// answers for its own stamp always.
-    static constexpr double max_interpolation_gap = 0.1;
+    double max_interpolation_gap = 0.1;  ///< [s], of truth.json
+    /// Position of `point` and the robot's heading.
+    std::optional<Pose2> pointAt(Stamp stamp) const;
+    /// Of the robot's frame. Where the heading is not known, NaN unless the point is the frame's origin.
     std::optional<Pose2> robotAt(Stamp stamp) const;
     std::optional<TrueTarget> targetAt(SourceId id, Stamp stamp) const;
 };
