@@ -1,5 +1,5 @@
 #pragma once
-#include <slamot/core/estimation/JointFilter.h>
+#include <slamot/core/filter/JointFilter.h>
 #include <slamot/core/plugin/Estimator.h>
 
 #include <memory>

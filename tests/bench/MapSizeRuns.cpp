@@ -5,7 +5,7 @@
 #include "LaneWorld.h"
 #include "Machine.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "slamot/core/plugin/PluginRegistry.h"
 
 namespace slamot::bench {

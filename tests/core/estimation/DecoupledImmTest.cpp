@@ -8,7 +8,7 @@
 
 #include "ImmScenes.h"
 #include "slamot/core/estimation/DecoupledImm.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "support/Expect.h"
 
 namespace slamot {

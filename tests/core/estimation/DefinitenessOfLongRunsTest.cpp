@@ -5,6 +5,7 @@
 #include "slamot/core/estimation/Definiteness.h"
 #include "slamot/core/estimation/DenseJointBank.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
+#include "slamot/core/estimation/RelativeGaussian.h"
 
 namespace slamot {
 namespace {
@@ -21,8 +22,8 @@ TEST_P(DefinitenessOfLongRuns, HugePriorsAndPreciseMeasurements) {
     detection.range = 11;
     detection.bearing = 0.5;
     detection.covariance = Vector2(1e-8, 1e-8).asDiagonal();
-    const FirstSight sight = firstSight(state, detection, {}, GetParam());
-    const BlockId landmark = bank.augment(BlockKind::landmark, {sight.position, sight.G, sight.own});
+    const BlockId landmark = bank.augment(
+        BlockKind::landmark, inWorld(firstSight(detection, {}, GetParam()), state.mean(robot_block)));
     for (int i = 0; i < 20000; ++i) {
         const Vector3 robot = state.mean(robot_block);
         const Vector2 rel = rotation(-robot.z()) * (state.mean(landmark).head<2>() - robot.head<2>());

@@ -10,7 +10,7 @@
 #include "slamot/core/estimation/BankedImm.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/DenseJointBank.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 
 namespace slamot::test {
 
@@ -148,15 +148,19 @@ class ModalRun {
                 first_sights.push_back(&detection);
             }
         }
+        std::vector<BlockId> measured;
         for (const auto* sights : {&known.landmarks, &known.targets})
-            for (const auto& sight : *sights) known.blocks.push_back(sight.block);
+            for (const auto& sight : *sights) measured.push_back(sight.block);
+        belief_->attend(seen, measured);
         belief_->update(seen, known, innovations);
         for (const RangeBearingDetection* detection : first_sights) {
             const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection->sensor)].pose;
+            const RelativeGaussian point =
+                firstSight(*detection, sensor, belief_->bank().consistency());
             if (detection->kind == ObjectKind::mover)
-                tracks_[detection->source.value] = {belief_->addTarget(*detection, sensor), set.stamp};
+                tracks_[detection->source.value] = {belief_->addTarget(moverAt(point, 3.0, 2.0)), set.stamp};
             else
-                landmarks_[detection->source.value] = belief_->addLandmark(*detection, sensor);
+                landmarks_[detection->source.value] = belief_->addLandmark(point);
         }
     }
 

@@ -11,7 +11,7 @@
 #include "LoopScene.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/Definiteness.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 #include "support/Scenes.h"

@@ -9,7 +9,7 @@
 
 #include "FullMatrixImm.h"
 #include "ImmScenes.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "support/Expect.h"
 
 namespace slamot {

@@ -131,40 +131,5 @@ TEST(RangeBearingUpdateTest, RefusesAnIndefiniteS) {
     EXPECT_THROW(linearise(state, 1, detection, {}, Consistency::classic), std::domain_error);
 }
 
-TEST(RangeBearingUpdateTest, FirstSightOfTheClassicFilterIsTheInverseModel) {
-    const DenseJointBank bank = correlatedState();
-    const JointView& state = bank.mode(0);
-    const Pose2 sensor{0.5, -0.2, 0.3};
-    const auto out = firstSight(state, detectionOf(8, 1.2), sensor, Consistency::classic);
-    const auto inverse = invertRangeBearing({1, 2, 0.5}, {8, 1.2}, sensor);
-    EXPECT_EQ(out.position, inverse.point);
-    EXPECT_EQ(out.G, inverse.G_robot);
-    EXPECT_TRUE(near(out.own, inverse.G_z * R * inverse.G_z.transpose(), 1e-15));
-}
-
-TEST(RangeBearingUpdateTest, FirstSightOfTheInvariantFilterHasTheMomentsOfTheBanana) {
-    // Point at range r = 10 + noise 0.1, bearing b = noise s: moments of (r cos b, r sin b) with b Gaussian
-    // are E cos b = exp(-s^2/2), E cos^2 b = (1 + exp(-2 s^2))/2, so that, with E r^2 = 100.01,
-    const double s = 0.1, s2 = s * s, r2 = 100.01;
-    const double mean = 10 * std::exp(-s2 / 2);
-    const double along = r2 * (1 + std::exp(-2 * s2)) / 2 - mean * mean,
-                 across = r2 * (1 - std::exp(-2 * s2)) / 2;
-    RangeBearingDetection detection = detectionOf(10, 0);
-    detection.covariance = Vector2(0.01, s2).asDiagonal();
-    const DenseJointBank bank({0, 0, 0}, Matrix3::Zero(), Consistency::classic);
-    const JointView& state = bank.mode(0);
-    const auto out = firstSight(state, detection, {}, Consistency::invariant);
-    // Neglected: relative order s^4 / 8 of the mean, s^2 = 1 % of the variances.
-    EXPECT_NEAR(out.position.x(), mean, 10 * s2 * s2 / 8);
-    EXPECT_NEAR(out.position.x(), 10 * (1 - s2 / 2), 1e-14);
-    EXPECT_NEAR(out.own(0, 0), along, 0.03 * along);
-    EXPECT_NEAR(out.own(1, 1), across, 0.01 * across);
-    EXPECT_NEAR(out.own(0, 0), 0.01 + 0.5 * 0.1 * 0.1, 1e-14);  // sigma_r^2 + (d s^2)^2/2
-    // The classic filter misses a third of the variance along here.
-    EXPECT_LT(firstSight(state, detection, {}, Consistency::classic).own(0, 0), 0.7 * along);
-    // All Jacobians are taken at the shortened range.
-    EXPECT_NEAR(out.G(1, 2), 10 * (1 - s2 / 2), 1e-14);
-}
-
 }  // namespace
 }  // namespace slamot

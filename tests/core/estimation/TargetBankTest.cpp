@@ -6,7 +6,7 @@
 
 #include "ImmScenes.h"
 #include "slamot/core/estimation/DenseJointBank.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 #include "slamot/core/estimation/RobotTargetView.h"
 #include "slamot/core/estimation/TargetBank.h"

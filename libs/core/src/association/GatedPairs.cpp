@@ -11,23 +11,11 @@
 namespace slamot {
 namespace {
 
-/// Where a sensor expects an object: all about a pair that the detection has no part in.
-struct Expected {
-    Vector2 z;
-    Vector2 variance;  ///< diagonal of S - R
-};
-
-Expected expect(const Linearisation& any, const RangeBearingDetection& detection) {
-    return {rangeBearingResidual(detection.z(), any.measurement.residual),
-            any.S.diagonal() - detection.covariance.diagonal()};
-}
-
 /// One row's squared distance is never above that of both: what fails here fails the gate.
-bool mayPass(const Expected& expected, const RangeBearingDetection& detection, double gate) {
+bool mayPass(const ExpectedDetection& expected, const RangeBearingDetection& detection, double gate) {
     const Vector2 nu = rangeBearingResidual(detection.z(), expected.z);
-    const Vector2 variance = expected.variance + detection.covariance.diagonal();
-    // The last bits of `expected` depend on the detection it was made with.
-    return (nu.array().square() <= (1 + 1e-9) * gate * variance.array()).all();
+    const Vector2 variance = expected.covariance.diagonal() + detection.covariance.diagonal();
+    return (nu.array().square() <= (1 + 1e-12) * gate * variance.array()).all();
 }
 
 double logDensity(const Linearisation& pair) {
@@ -38,23 +26,21 @@ double logDensity(const Linearisation& pair) {
 
 GatedPairs gatedPairs(const JointView& state, const std::vector<BlockId>& objects,
                       const RangeBearingSet& seen, const std::vector<int>& detections,
-                      Consistency consistency, PairGates& gates) {
+                      Consistency consistency, PairGates& gates, const MayPair& may_pair) {
     const double gate = gates(1);
     std::vector<Candidate> candidates;
     std::vector<LinearMeasurement> measurements;
-    std::map<int, std::vector<std::optional<Expected>>> by_sensor;
+    std::map<int, std::vector<std::optional<ExpectedSight>>> by_sensor;
     for (const int d : detections) {
         const RangeBearingDetection& detection = seen.detections[static_cast<std::size_t>(d)];
         const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
         auto& expected = by_sensor[detection.sensor];
         expected.resize(objects.size());
         for (std::size_t o = 0; o < objects.size(); ++o) {
-            const auto linearised = [&] {
-                return linearise(state, objects[o], detection, sensor, consistency);
-            };
-            if (!expected[o]) expected[o] = expect(linearised(), detection);
-            if (!mayPass(*expected[o], detection, gate)) continue;
-            const Linearisation pair = linearised();
+            if (may_pair && !may_pair(d, static_cast<int>(o))) continue;
+            if (!expected[o]) expected[o] = expectedSight(state, objects[o], sensor, consistency);
+            if (!mayPass(expected[o]->detection, detection, gate)) continue;
+            const Linearisation pair = expected[o]->with(detection);
             if (!(pair.nis <= gate)) continue;
             candidates.push_back({d, static_cast<int>(o), pair.nis, logDensity(pair)});
             measurements.push_back(pair.measurement);

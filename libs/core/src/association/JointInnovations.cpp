@@ -37,4 +37,10 @@ double InnovationFactor::logConditional() const {
     return -0.5 * w_.segment<2>(k).squaredNorm() - std::log(L_(k, k) * L_(k + 1, k + 1)) - std::log(2.0 * pi);
 }
 
+InnovationFactor::Conditional InnovationFactor::conditional() const {
+    const int k = 2 * (pairs() - 1);
+    const Matrix2 L = L_.block<2, 2>(k, k);
+    return {L * w_.segment<2>(k), L * L.transpose()};
+}
+
 }  // namespace slamot

@@ -18,6 +18,7 @@ const char* toText(Outcome outcome) {
         case Outcome::inflated: return "inflated";
         case Outcome::rejected: return "rejected";
         case Outcome::initiated: return "initiated";
+        case Outcome::tentative: return "tentative";
         case Outcome::ignored: return "ignored";
     }
     return "ignored";

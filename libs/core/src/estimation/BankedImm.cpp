@@ -29,10 +29,10 @@ TargetBank bankFrom(const JointImm& exact, std::size_t t) {
 }  // namespace
 
 BankedImm::BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact)
-    : ModalState(std::move(settings)) {
+    : ModalState(std::move(settings), nullptr) {
     for (std::size_t t = 0; t < exact.targets().size(); ++t)
         targets_.emplace_back(exact.targets()[t], bankFrom(exact, t));
-    joint_ = exact.releaseMerged();
+    bank_ = exact.releaseMerged();
 }
 
 TargetGaussian BankedImm::marginal(BlockId target) const {
@@ -46,7 +46,7 @@ std::size_t BankedImm::indexOf(BlockId target) const {
 }
 
 void BankedImm::predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) {
-    JointMode& joint = joint_->mode(0);
+    JointMode& joint = bank_->mode(0);
     const MotionPrediction robot = predictMotion(settings().motion, joint.mean(robot_block), odometry);
     joint.propagate(robot_block, robot.pose, robot.F, robot.Q);
 
@@ -60,8 +60,7 @@ void BankedImm::predict(const OdometryIncrement& odometry, const std::vector<Tar
 
 void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                        std::vector<Innovation>& innovations) {
-    joint_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, certain_);
-    update_by_landmarks_(joint_->mode(0), joint_->consistency(), settings().gate, seen, known.landmarks,
+    update_by_landmarks_(bank_->mode(0), bank_->consistency(), settings().gate, seen, known.landmarks,
                          innovations);
     updateByTargets(seen, known, innovations);
     for (auto& [target, bank] : targets_) bank.synchronise(marginal(target));
@@ -82,29 +81,29 @@ void BankedImm::updateByTargets(const RangeBearingSet& seen, const KnownObjects&
 
 void BankedImm::measure(const RangeBearingSet& seen, const KnownObjects::Sight& sight,
                         Innovation& innovation) {
-    const JointMode& joint = joint_->mode(0);
+    const JointMode& joint = bank_->mode(0);
     TargetBank& bank = targets_[indexOf(sight.block)].second;
     const RangeBearingDetection& detection = seen.detections[sight.detection];
     const Pose2& sensor = seen.sensors[detection.sensor].pose;
 
     bank.synchronise(marginal(sight.block));
     const RobotGivenTarget robot(joint, sight.block);
-    bank.linearise(robot, detection, sensor, joint_->consistency(), linear_);
+    bank.linearise(robot, detection, sensor, bank_->consistency(), linear_);
     const Matrix2 more_noise = settings().gate.judge(bank.probabilities(), linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
-    bank.update(robot, linear_, joint_->consistency());
+    bank.update(robot, linear_, bank_->consistency());
 
-    batch_.push_back(linearise(joint, sight.block, detection, sensor, joint_->consistency()).measurement);
+    batch_.push_back(linearise(joint, sight.block, detection, sensor, bank_->consistency()).measurement);
     batch_.back().R += more_noise;
     // The bank has made this measurement's change of the joint block itself, and no other's.
     RobotTargetView own = robot.with(marginal(sight.block));
-    own.update(batch_.back(), joint_->consistency());
+    own.update(batch_.back(), bank_->consistency());
     bank.takeSnapshot(own.target());
 }
 
 void BankedImm::updateJoint() {
-    joint_->mode(0).update(batch_);
+    bank_->mode(0).update(batch_);
     for (const LinearMeasurement& measurement : batch_) {
         const BlockId target = measurement.terms[1].block;
         TargetBank& bank = targets_[indexOf(target)].second;
@@ -114,22 +113,25 @@ void BankedImm::updateJoint() {
     batch_.clear();
 }
 
-BlockId BankedImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {
-    return joint_->augment(BlockKind::landmark, newLandmark(detection, sensor));
-}
-
-BlockId BankedImm::addTarget(const RangeBearingDetection& detection, const Pose2& sensor) {
-    const BlockId target = joint_->augment(BlockKind::target, newTarget(detection, sensor));
+BlockId BankedImm::addTarget(const RelativeGaussian& target) {
+    const BlockId block = bank_->augment(BlockKind::target, byMode(target));
     const Eigen::VectorXd& initial = settings().initial;
     targets_.emplace_back(
-        target, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()),
-                                                                marginal(target))));
-    return target;
+        block, TargetBank(initial, std::vector<TargetGaussian>(static_cast<std::size_t>(initial.size()),
+                                                               marginal(block))));
+    return block;
 }
 
 void BankedImm::removeTarget(BlockId target) {
-    joint_->remove(target);
+    bank_->remove(target);
     targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(indexOf(target)));
+}
+
+void BankedImm::widenTarget(BlockId target, const Matrix6& Q) {
+    bank_->mode(0).propagate(target, mean(target), Matrix6::Identity(), Q);
+    TargetBank& bank = targets_[indexOf(target)].second;
+    bank.widen(Q);
+    bank.takeSnapshot(marginal(target));
 }
 
 TargetBelief BankedImm::target(BlockId target) const {

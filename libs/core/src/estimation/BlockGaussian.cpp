@@ -80,6 +80,25 @@ void BlockGaussian::scatterColumns(
     P_.block(first, first, n_ - first, count) = columns.bottomRows(n_ - first);
 }
 
+Eigen::MatrixXd BlockGaussian::jointCovariance(const BlockLayout& layout,
+                                               const std::vector<BlockId>& blocks) const {
+    int size = 0;
+    for (const BlockId id : blocks) size += layout.at(id).size;
+    Eigen::MatrixXd out(size, size);
+    int row = 0;
+    for (const BlockId id_a : blocks) {
+        const BlockPlace& a = layout.at(id_a);
+        int column = 0;
+        for (const BlockId id_b : blocks) {
+            const BlockPlace& b = layout.at(id_b);
+            out.block(row, column, a.size, b.size) = covariance(a, b);
+            column += b.size;
+        }
+        row += a.size;
+    }
+    return out;
+}
+
 BlockMatrix BlockGaussian::covariance(const BlockPlace& a, const BlockPlace& b) const {
     if (a.offset > b.offset) return P_.block(a.offset, b.offset, a.size, b.size);
     if (a.offset < b.offset) return P_.block(b.offset, a.offset, b.size, a.size).transpose();

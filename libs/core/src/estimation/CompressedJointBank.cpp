@@ -285,6 +285,8 @@ BlockMatrix CompressedJointBank::Mode::covariance(BlockId a, BlockId b) const {
 }
 
 Eigen::MatrixXd CompressedJointBank::Mode::jointCovariance(const std::vector<BlockId>& blocks) const {
+    if (std::none_of(blocks.begin(), blocks.end(), [&](BlockId id) { return bank->map_.contains(id); }))
+        return gaussian.jointCovariance(bank->layout_, blocks);
     const int n = bank->layout_.dimension();
     std::vector<Eigen::MatrixXd> parts;
     int size = 0;

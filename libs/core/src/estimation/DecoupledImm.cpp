@@ -17,13 +17,13 @@ bool isTarget(BlockId block) {
 }  // namespace
 
 DecoupledImm::DecoupledImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank)
-    : ModalState(std::move(settings)), joint_(std::move(bank)), last_target_(no_block) {}
+    : ModalState(std::move(settings), std::move(bank)), last_target_(no_block) {}
 
 // --- one step
 // ----------------------------------------------------------------------------------------------------
 
 void DecoupledImm::predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) {
-    JointMode& joint = joint_->mode(0);
+    JointMode& joint = bank_->mode(0);
     const MotionPrediction robot = predictMotion(settings().motion, joint.mean(robot_block), odometry);
     joint.propagate(robot_block, robot.pose, robot.F, robot.Q);
 
@@ -34,10 +34,7 @@ void DecoupledImm::predict(const OdometryIncrement& odometry, const std::vector<
 
 void DecoupledImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                           std::vector<Innovation>& innovations) {
-    std::vector<BlockId> landmarks;
-    for (const auto& sight : known.landmarks) landmarks.push_back(sight.block);
-    joint_->attend({Pose2::fromVector(mean(robot_block)), seen, landmarks}, certain_);
-    update_by_landmarks_(joint_->mode(0), joint_->consistency(), settings().gate, seen, known.landmarks,
+    update_by_landmarks_(bank_->mode(0), bank_->consistency(), settings().gate, seen, known.landmarks,
                          innovations);
     for (const auto& sight : known.targets) updateTarget(seen, sight, innovations[sight.detection]);
 }
@@ -49,7 +46,7 @@ void DecoupledImm::updateTarget(const RangeBearingSet& seen, const KnownObjects:
     // Without correlation the robot is at its estimate whatever the mover's mode, and S = H_T P_T H_T^t +
     // (R + H_R P_R H_R^t): the robot's covariance is noise.
     const RobotGivenTarget robot(*this, sight.block);
-    tracker.linearise(robot, detection, seen.sensors[detection.sensor].pose, joint_->consistency(), linear_);
+    tracker.linearise(robot, detection, seen.sensors[detection.sensor].pose, bank_->consistency(), linear_);
     const Matrix2 more_noise = settings().gate.judge(tracker.probabilities(), linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
@@ -60,12 +57,8 @@ void DecoupledImm::updateTarget(const RangeBearingSet& seen, const KnownObjects:
 // --- objects that come and go
 // ------------------------------------------------------------------------------------
 
-BlockId DecoupledImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {
-    return joint_->augment(BlockKind::landmark, newLandmark(detection, sensor));
-}
-
-BlockId DecoupledImm::addTarget(const RangeBearingDetection& detection, const Pose2& sensor) {
-    const NewBlock sight = newTarget(detection, sensor).front();
+BlockId DecoupledImm::addTarget(const RelativeGaussian& target) {
+    const NewBlock sight = byMode(target).front();
     const Matrix3 P_RR = covariance(robot_block, robot_block);
     const TargetGaussian first{sight.mean, sight.G * P_RR * sight.G.transpose() + sight.own};
     const Eigen::VectorXd& initial = settings().initial;
@@ -77,6 +70,10 @@ BlockId DecoupledImm::addTarget(const RangeBearingDetection& detection, const Po
 
 void DecoupledImm::removeTarget(BlockId target) {
     targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(indexOf(target)));
+}
+
+void DecoupledImm::widenTarget(BlockId target, const Matrix6& Q) {
+    targets_[indexOf(target)].second.widen(Q);
 }
 
 std::size_t DecoupledImm::indexOf(BlockId target) const {
@@ -96,20 +93,20 @@ TargetBelief DecoupledImm::target(BlockId target) const {
 
 BlockVector DecoupledImm::mean(BlockId block) const {
     if (isTarget(block)) return trackerOf(block).merged().mean;
-    return joint_->mode(0).mean(block);
+    return bank_->mode(0).mean(block);
 }
 
 BlockMatrix DecoupledImm::covariance(BlockId a, BlockId b) const {
     if (a == b && isTarget(a)) return trackerOf(a).merged().covariance;
     if (isTarget(a) || isTarget(b)) return BlockMatrix::Zero(mean(a).size(), mean(b).size());
-    return joint_->mode(0).covariance(a, b);
+    return bank_->mode(0).covariance(a, b);
 }
 
 Eigen::MatrixXd DecoupledImm::jointCovariance(const std::vector<BlockId>& blocks) const {
     std::vector<BlockId> joint;
     std::copy_if(blocks.begin(), blocks.end(), std::back_inserter(joint),
                  [](BlockId block) { return !isTarget(block); });
-    const Eigen::MatrixXd P = joint_->mode(0).jointCovariance(joint);
+    const Eigen::MatrixXd P = bank_->mode(0).jointCovariance(joint);
 
     std::vector<Eigen::Index> rows;  // where P's rows go
     Eigen::Index n = 0;

@@ -68,21 +68,7 @@ BlockMatrix DenseJointBank::Mode::covariance(BlockId a, BlockId b) const {
 }
 
 Eigen::MatrixXd DenseJointBank::Mode::jointCovariance(const std::vector<BlockId>& blocks) const {
-    int size = 0;
-    for (const BlockId id : blocks) size += bank->layout_.at(id).size;
-    Eigen::MatrixXd out(size, size);
-    int row = 0;
-    for (const BlockId id_a : blocks) {
-        const BlockPlace& a = bank->layout_.at(id_a);
-        int column = 0;
-        for (const BlockId id_b : blocks) {
-            const BlockPlace& b = bank->layout_.at(id_b);
-            out.block(row, column, a.size, b.size) = gaussian.covariance(a, b);
-            column += b.size;
-        }
-        row += a.size;
-    }
-    return out;
+    return gaussian.jointCovariance(bank->layout_, blocks);
 }
 
 void DenseJointBank::Mode::propagate(BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "TextParts.h"
+#include "../config/TextParts.h"
 #include "slamot/core/estimation/TargetModes.h"
 
 namespace slamot {

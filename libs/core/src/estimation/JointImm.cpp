@@ -10,7 +10,7 @@
 namespace slamot {
 
 JointImm::JointImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank)
-    : ModalState(std::move(settings)), bank_(std::move(bank)), mu_(Eigen::VectorXd::Ones(1)) {}
+    : ModalState(std::move(settings), std::move(bank)) {}
 
 // --- one step: paper 1, section 2.3
 // ------------------------------------------------------------------------------
@@ -53,8 +53,6 @@ void JointImm::regroup(const Eigen::MatrixXd& weights) {
 
 void JointImm::update(const RangeBearingSet& seen, const KnownObjects& known,
                       std::vector<Innovation>& innovations) {
-    bank_->attend({Pose2::fromVector(mean(robot_block)), seen, known.blocks}, mu_);
-
     // All measurements are linearised at the predicted state; the movers' come last.
     batches_.resize(static_cast<std::size_t>(mu_.size()));
     for (auto& batch : batches_) batch.clear();
@@ -96,15 +94,11 @@ void JointImm::addToBatches(const RangeBearingSet& seen, const KnownObjects::Sig
 // --- objects that come and go
 // ------------------------------------------------------------------------------------
 
-BlockId JointImm::addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) {
-    return bank_->augment(BlockKind::landmark, newLandmark(detection, sensor));
-}
-
-BlockId JointImm::addTarget(const RangeBearingDetection& detection, const Pose2& sensor) {
+BlockId JointImm::addTarget(const RelativeGaussian& target) {
     const Eigen::VectorXd& initial = settings().initial;
     if (initial.size() > 1)  // every combination with every mode of the new mover
         regroup(Eigen::kroneckerProduct(Eigen::MatrixXd(mu_.asDiagonal()), initial.transpose()).eval());
-    targets_.push_back(bank_->augment(BlockKind::target, newTarget(detection, sensor)));
+    targets_.push_back(bank_->augment(BlockKind::target, byMode(target)));
     return targets_.back();
 }
 
@@ -122,6 +116,11 @@ void JointImm::removeTarget(BlockId target) {
         regroup(weights);
     }
     targets_.erase(gone);
+}
+
+void JointImm::widenTarget(BlockId target, const Matrix6& Q) {
+    for (int j = 0; j < bank_->modeCount(); ++j)
+        bank_->mode(j).propagate(target, bank_->mode(j).mean(target), Matrix6::Identity(), Q);
 }
 
 int JointImm::modeOf(int combination, std::size_t target) const {

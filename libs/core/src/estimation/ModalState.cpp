@@ -1,43 +1,38 @@
 #include "slamot/core/estimation/ModalState.h"
 
-#include <cmath>
-
-#include "slamot/core/estimation/RangeBearingUpdate.h"
-
 namespace slamot {
 
 void KnownObjects::clear() {
     landmarks.clear();
     targets.clear();
-    blocks.clear();
 }
 
-std::vector<NewBlock> ModalState::newLandmark(const RangeBearingDetection& detection,
-                                              const Pose2& sensor) const {
-    std::vector<NewBlock> by_mode;
-    for (int j = 0; j < bank().modeCount(); ++j) {
-        const FirstSight sight = firstSight(bank().mode(j), detection, sensor, bank().consistency());
-        by_mode.push_back({sight.position, sight.G, sight.own});
-    }
-    return by_mode;
+void ModalState::attend(const RangeBearingSet& seen, const std::vector<BlockId>& measured) {
+    bank_->attend({Pose2::fromVector(mean(robot_block)), seen, measured}, mu_);
 }
 
-std::vector<NewBlock> ModalState::newTarget(const RangeBearingDetection& detection,
-                                            const Pose2& sensor) const {
-    std::vector<NewBlock> by_mode;
-    for (const NewBlock& point : newLandmark(detection, sensor)) {
-        // A mover's velocity and acceleration are not seen at first sight: priors around zero.
-        Vector6 mean = Vector6::Zero();
-        mean.head<2>() = point.mean;
-        Eigen::Matrix<double, 6, 3> G = Eigen::Matrix<double, 6, 3>::Zero();
-        G.topRows<2>() = point.G;
-        Matrix6 own = Matrix6::Zero();
-        own.topLeftCorner<2, 2>() = point.own;
-        own.diagonal().segment<2>(2).setConstant(std::pow(settings().target_velocity_std, 2));
-        own.diagonal().segment<2>(4).setConstant(std::pow(settings().target_acceleration_std, 2));
-        by_mode.push_back({mean, G, own});
+BlockId ModalState::addLandmark(const RelativeGaussian& landmark) {
+    return bank_->augment(BlockKind::landmark, byMode(landmark));
+}
+
+void ModalState::mergeLandmarks(BlockId kept, BlockId gone, double deviation) {
+    for (int j = 0; j < bank_->modeCount(); ++j) {
+        JointMode& mode = bank_->mode(j);
+        LinearMeasurement same;
+        same.add(kept, Matrix2::Identity());
+        same.add(gone, -Matrix2::Identity());
+        same.residual = mode.mean(gone) - mode.mean(kept);
+        same.R = deviation * deviation * Matrix2::Identity();
+        mode.update({same});
     }
-    return by_mode;
+    bank_->remove(gone);
+}
+
+std::vector<NewBlock> ModalState::byMode(const RelativeGaussian& object) const {
+    std::vector<NewBlock> blocks;
+    for (int j = 0; j < bank().modeCount(); ++j)
+        blocks.push_back(inWorld(object, bank().mode(j).mean(robot_block)));
+    return blocks;
 }
 
 }  // namespace slamot

@@ -21,18 +21,17 @@ Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId object) {
 
 }  // namespace
 
-Linearisation linearise(const JointView& state, BlockId block, const RangeBearingDetection& detection,
-                        const Pose2& sensor, Consistency consistency) {
+ExpectedSight expectedSight(const JointView& state, BlockId block, const Pose2& sensor,
+                            Consistency consistency) {
     const Vector3 robot = state.mean(robot_block);
     const RangeBearingPrediction h = predictRangeBearing(robot, state.mean(block).head<2>(), sensor);
     const Eigen::Matrix<double, 5, 5> P = marginal(state, block);
 
-    Linearisation out;
-    LinearMeasurement& m = out.measurement;
-    m.add(robot_block, h.H_robot);
-    m.add(block, h.H_point);
-    m.residual = rangeBearingResidual(detection.z(), h.z);
-    m.R = detection.covariance;
+    ExpectedSight out;
+    out.measurement.add(robot_block, h.H_robot);
+    out.measurement.add(block, h.H_point);
+    out.measurement.R.setZero();
+    out.detection.z = h.z;
 
     if (consistency == Consistency::invariant) {
         // Uncertainty across the line of sight lengthens the mean range by P_lat / 2d and spreads it by its
@@ -42,33 +41,25 @@ Linearisation linearise(const JointView& state, BlockId block, const RangeBearin
         const double d = std::max(h.z.x(), range_floor);
         // Beyond P_lat = d^2 the expansion means nothing and would throw the range about; it is held there.
         const double P_lat = std::min((lateral * P * lateral.transpose()).value(), d * d);
-        m.residual.x() -= P_lat / (2.0 * d);
-        m.R(0, 0) += 0.5 * (P_lat / d) * (P_lat / d);
+        out.detection.z.x() += P_lat / (2.0 * d);
+        out.measurement.R(0, 0) = 0.5 * (P_lat / d) * (P_lat / d);
     }
 
     Eigen::Matrix<double, 2, 5> H;
     H << h.H_robot, h.H_point;
-    out.S = H * P * H.transpose() + m.R;
-    const Eigen::LLT<Matrix2> factor(out.S);
-    if (factor.info() != Eigen::Success)
-        throw std::domain_error("innovation covariance S is not positive definite");
-    out.nis = m.residual.dot(factor.solve(m.residual));
+    out.detection.covariance = H * P * H.transpose() + out.measurement.R;
     return out;
 }
 
-FirstSight firstSight(const JointView& state, const RangeBearingDetection& detection, const Pose2& sensor,
-                      Consistency consistency) {
-    Vector2 z = detection.z();
-    Matrix2 R = detection.covariance;
-    if (consistency == Consistency::invariant) {
-        // A noisy bearing bends the cloud of possible positions into a banana: its mean lies nearer, and it
-        // is thicker.
-        const double bearing_variance = R(1, 1);
-        R(0, 0) += 0.5 * (z.x() * bearing_variance) * (z.x() * bearing_variance);
-        z.x() *= 1.0 - 0.5 * bearing_variance;
-    }
-    const RangeBearingInverse inverse = invertRangeBearing(state.mean(robot_block), z, sensor);
-    return {inverse.point, inverse.G_robot, inverse.G_z * R * inverse.G_z.transpose()};
+Linearisation ExpectedSight::with(const RangeBearingDetection& seen) const {
+    Linearisation out{measurement, detection.covariance + seen.covariance, 0};
+    out.measurement.residual = rangeBearingResidual(seen.z(), detection.z);
+    out.measurement.R += seen.covariance;
+    const Eigen::LLT<Matrix2> factor(out.S);
+    if (factor.info() != Eigen::Success)
+        throw std::domain_error("innovation covariance S is not positive definite");
+    out.nis = out.measurement.residual.dot(factor.solve(out.measurement.residual));
+    return out;
 }
 
 }  // namespace slamot

@@ -87,6 +87,10 @@ Matrix6 covarianceMap(const Matrix6& from, const Matrix6& to) {
 TargetBank::TargetBank(const Eigen::VectorXd& mu, std::vector<TargetGaussian> modes)
     : mu_(mu), modes_(std::move(modes)), snapshot_(merged()) {}
 
+void TargetBank::widen(const Matrix6& Q) {
+    for (TargetGaussian& mode : modes_) mode.covariance += Q;
+}
+
 TargetGaussian TargetBank::merged() const {
     return mixture(mu_, modes_);
 }

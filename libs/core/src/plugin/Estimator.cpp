@@ -97,6 +97,7 @@ UpdateReport Estimator::update(const DetectionSet& detections) {
             case Outcome::initiated: ++health_.detections_used; break;
             case Outcome::inflated: ++health_.detections_inflated; break;
             case Outcome::rejected: ++health_.detections_rejected; break;
+            case Outcome::tentative: ++health_.detections_tentative; break;
             case Outcome::ignored: ++health_.detections_ignored; break;
         }
     checkRobot("update");

@@ -29,6 +29,12 @@ class InnovationFactor {
     double nis() const { return nis_.back(); }
     /// log N of the last pair given all before it.
     double logConditional() const;
+    /// The last pair's innovation and its covariance, given all before it.
+    struct Conditional {
+        Vector2 residual;
+        Matrix2 covariance;
+    };
+    Conditional conditional() const;
 
     /// false, and nothing done, when S is not positive definite.
     bool push(int candidate);

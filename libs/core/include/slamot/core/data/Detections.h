@@ -24,6 +24,8 @@ struct RangeBearingSensor {
     double min_range = 0, max_range = 0;
     /// Full width of the field of view [rad], centred on the sensor's x axis.
     double field_of_view = 2 * pi;
+    /// What it reports; unknown: landmarks and movers alike.
+    ObjectKind kind = ObjectKind::unknown;
 };
 
 /// One range-bearing reading, z = [range bearing] in [m, rad], in the sensor's frame.

@@ -20,6 +20,8 @@ struct TrackEstimate {
     Vector6 mean = Vector6::Zero();
     Matrix6 covariance = Matrix6::Zero();
     double existence = 1.0;
+    /// P(moving): below 1 where the sensor does not tell movers from landmarks.
+    double moving = 1.0;
     /// In the order of Estimator::modeNames(); sums to 1; empty for single-mode estimators.
     std::vector<double> mode_probabilities;
 };
@@ -32,12 +34,16 @@ struct LandmarkEstimate {
     Matrix2 covariance = Matrix2::Zero();
     std::int64_t seen = 0;
     Stamp first_seen, last_seen;
+    double existence = 1.0;
+    /// P(moving): above 0 where the sensor does not tell landmarks from movers.
+    double moving = 0.0;
 };
 
 /// Counters since the start; nothing that was not used goes unmentioned.
 struct Health {
     std::int64_t predictions = 0, updates = 0;
-    std::int64_t detections_used = 0, detections_inflated = 0, detections_rejected = 0, detections_ignored = 0;
+    std::int64_t detections_used = 0, detections_inflated = 0, detections_rejected = 0,
+                 detections_tentative = 0, detections_ignored = 0;
 };
 
 struct Estimate {
@@ -54,6 +60,7 @@ enum class Outcome {
     inflated,   ///< used with enlarged noise, since it lay outside the gate
     rejected,   ///< outside the gate, not used
     initiated,  ///< started a landmark or a track
+    tentative,  ///< of something that is not known to exist yet: kept beside the estimate
     ignored     ///< nothing the estimator has a use for; counted
 };
 

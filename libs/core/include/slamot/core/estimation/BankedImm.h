@@ -15,23 +15,22 @@ class BankedImm : public ModalState {
     /// Goes on where the exact form stands.
     BankedImm(std::shared_ptr<const ModalSettings> settings, JointImm&& exact);
 
-    const JointBank& bank() const override { return *joint_; }
-    BlockVector mean(BlockId block) const override { return joint_->mode(0).mean(block); }
-    BlockMatrix covariance(BlockId a, BlockId b) const override { return joint_->mode(0).covariance(a, b); }
+    BlockVector mean(BlockId block) const override { return bank_->mode(0).mean(block); }
+    BlockMatrix covariance(BlockId a, BlockId b) const override { return bank_->mode(0).covariance(a, b); }
     Eigen::MatrixXd jointCovariance(const std::vector<BlockId>& blocks) const override {
-        return joint_->mode(0).jointCovariance(blocks);
+        return bank_->mode(0).jointCovariance(blocks);
     }
     TargetBelief target(BlockId target) const override;
 
     void predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) override;
     void update(const RangeBearingSet& seen, const KnownObjects& known,
                 std::vector<Innovation>& innovations) override;
-    BlockId addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) override;
-    BlockId addTarget(const RangeBearingDetection& detection, const Pose2& sensor) override;
+    BlockId addTarget(const RelativeGaussian& target) override;
     void removeTarget(BlockId target) override;
+    void widenTarget(BlockId target, const Matrix6& Q) override;
 
     /// Gives the joint state away; this is empty then.
-    std::unique_ptr<JointBank> release() { return std::move(joint_); }
+    std::unique_ptr<JointBank> release() { return std::move(bank_); }
 
   private:
     TargetGaussian marginal(BlockId target) const;
@@ -43,9 +42,7 @@ class BankedImm : public ModalState {
     /// By the batch of movers, which is empty then.
     void updateJoint();
 
-    std::unique_ptr<JointBank> joint_;
     std::vector<std::pair<BlockId, TargetBank>> targets_;
-    Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
     LandmarkUpdate update_by_landmarks_;
     std::vector<LinearMeasurement> batch_;  ///< of movers; kept for its capacity
     std::vector<Linearisation> linear_;

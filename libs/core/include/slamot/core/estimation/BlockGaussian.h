@@ -20,6 +20,8 @@ class BlockGaussian {
     auto lower() const { return P_.topLeftCorner(n_, n_); }
     auto lower() { return P_.topLeftCorner(n_, n_); }
     BlockMatrix covariance(const BlockPlace& a, const BlockPlace& b) const;
+    /// Of many blocks, in the order given.
+    Eigen::MatrixXd jointCovariance(const BlockLayout& layout, const std::vector<BlockId>& blocks) const;
     /// Columns [first, first + out.cols()) of the symmetric matrix, whole.
     void gatherColumns(int first, Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> out) const;
 

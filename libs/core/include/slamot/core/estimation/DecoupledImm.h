@@ -15,7 +15,6 @@ class DecoupledImm : public ModalState {
     /// `bank` has one mode and no movers.
     DecoupledImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank);
 
-    const JointBank& bank() const override { return *joint_; }
     BlockVector mean(BlockId block) const override;
     /// 0 between a mover and anything else.
     BlockMatrix covariance(BlockId a, BlockId b) const override;
@@ -25,19 +24,17 @@ class DecoupledImm : public ModalState {
     void predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) override;
     void update(const RangeBearingSet& seen, const KnownObjects& known,
                 std::vector<Innovation>& innovations) override;
-    BlockId addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) override;
-    BlockId addTarget(const RangeBearingDetection& detection, const Pose2& sensor) override;
+    BlockId addTarget(const RelativeGaussian& target) override;
     void removeTarget(BlockId target) override;
+    void widenTarget(BlockId target, const Matrix6& Q) override;
 
   private:
     void updateTarget(const RangeBearingSet& seen, const KnownObjects::Sight& sight, Innovation& innovation);
     std::size_t indexOf(BlockId target) const;
     const TargetBank& trackerOf(BlockId target) const { return targets_[indexOf(target)].second; }
 
-    std::unique_ptr<JointBank> joint_;  ///< robot and landmarks
     std::vector<std::pair<BlockId, TargetBank>> targets_;
     BlockId last_target_;
-    Eigen::VectorXd certain_ = Eigen::VectorXd::Ones(1);  ///< weight of the joint state's only mode
     LandmarkUpdate update_by_landmarks_;
     std::vector<Linearisation> linear_;  ///< kept for its capacity
 };

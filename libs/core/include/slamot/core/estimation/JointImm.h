@@ -11,7 +11,6 @@ class JointImm : public ModalState {
     /// `bank` has one mode and no movers.
     JointImm(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank);
 
-    const JointBank& bank() const override { return *bank_; }
     BlockVector mean(BlockId block) const override;
     BlockMatrix covariance(BlockId a, BlockId b) const override;
     Eigen::MatrixXd jointCovariance(const std::vector<BlockId>& blocks) const override;
@@ -20,9 +19,9 @@ class JointImm : public ModalState {
     void predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) override;
     void update(const RangeBearingSet& seen, const KnownObjects& known,
                 std::vector<Innovation>& innovations) override;
-    BlockId addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) override;
-    BlockId addTarget(const RangeBearingDetection& detection, const Pose2& sensor) override;
+    BlockId addTarget(const RelativeGaussian& target) override;
     void removeTarget(BlockId target) override;
+    void widenTarget(BlockId target, const Matrix6& Q) override;
 
     const std::vector<BlockId>& targets() const { return targets_; }
     /// Probabilities of the combinations.
@@ -39,9 +38,7 @@ class JointImm : public ModalState {
     /// Old combinations become new ones: weights(i, j), how much of the old i the new j gets.
     void regroup(const Eigen::MatrixXd& weights);
 
-    std::unique_ptr<JointBank> bank_;
     std::vector<BlockId> targets_;
-    Eigen::VectorXd mu_;
     // Work space of update, kept for its capacity.
     std::vector<std::vector<LinearMeasurement>> batches_;
     std::vector<Linearisation> linear_;

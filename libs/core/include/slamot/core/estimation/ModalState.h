@@ -8,6 +8,7 @@
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/estimation/JointBank.h"
 #include "slamot/core/estimation/OutlierGate.h"
+#include "slamot/core/estimation/RelativeGaussian.h"
 #include "slamot/core/estimation/TargetModes.h"
 #include "slamot/core/models/RobotMotion.h"
 
@@ -17,7 +18,6 @@ namespace slamot {
 struct ModalSettings {
     RobotMotionParameters motion;
     OutlierGate gate;
-    double target_velocity_std, target_acceleration_std;  ///< priors at first sight
 
     ModeChain chain;
     Eigen::VectorXd initial;  ///< mode probabilities at first sight
@@ -31,8 +31,6 @@ struct KnownObjects {
         BlockId block;
     };
     std::vector<Sight> landmarks, targets;
-    /// All their blocks.
-    std::vector<BlockId> blocks;
 
     void clear();
 };
@@ -46,27 +44,42 @@ struct TargetBelief {
 /// As a JointView it shows the joint distribution over all modes.
 class ModalState : public JointView {
   public:
-    explicit ModalState(std::shared_ptr<const ModalSettings> settings) : settings_(std::move(settings)) {}
-
-    virtual const JointBank& bank() const = 0;
+    const JointBank& bank() const { return *bank_; }
     virtual TargetBelief target(BlockId target) const = 0;
 
     /// models: of the modes, in the order of the chain.
     virtual void predict(const OdometryIncrement& odometry, const std::vector<TargetModel>& models) = 0;
-    /// Takes in what is known of `seen`; innovations are those of all detections, in their order.
+    /// Before detections are compared with blocks: brings `measured`, and what else the sensors may see from
+    /// here, within reach.
+    void attend(const RangeBearingSet& seen, const std::vector<BlockId>& measured);
+    /// Takes in what is known of `seen`, whose blocks have been attended to; innovations are those of all
+    /// detections, in their order.
     virtual void update(const RangeBearingSet& seen, const KnownObjects& known,
                         std::vector<Innovation>& innovations) = 0;
-    virtual BlockId addLandmark(const RangeBearingDetection& detection, const Pose2& sensor) = 0;
-    virtual BlockId addTarget(const RangeBearingDetection& detection, const Pose2& sensor) = 0;
+    virtual BlockId addTarget(const RelativeGaussian& target) = 0;
     virtual void removeTarget(BlockId target) = 0;
+    /// P_TT += Q in every mode: a mover is less certain than the modes have it.
+    virtual void widenTarget(BlockId target, const Matrix6& Q) = 0;
+
+    BlockId addLandmark(const RelativeGaussian& landmark);
+    void removeLandmark(BlockId landmark) { bank_->remove(landmark); }
+    /// Two landmarks within reach turn out to be one: conditions on their positions being equal up to
+    /// `deviation` [m] in each coordinate, and lets go of `gone`.
+    void mergeLandmarks(BlockId kept, BlockId gone, double deviation);
 
   protected:
+    /// The bank's modes have the probabilities mu.
+    ModalState(std::shared_ptr<const ModalSettings> settings, std::unique_ptr<JointBank> bank,
+               const Eigen::VectorXd& mu = Eigen::VectorXd::Ones(1))
+        : settings_(std::move(settings)), bank_(std::move(bank)), mu_(mu) {}
+
     const ModalSettings& settings() const { return *settings_; }
-    /// The object as every mode of the bank sees it for the first time (paper 1, eq. 8-9 and 13-17).
-    std::vector<NewBlock> newLandmark(const RangeBearingDetection& detection, const Pose2& sensor) const;
-    std::vector<NewBlock> newTarget(const RangeBearingDetection& detection, const Pose2& sensor) const;
+    /// A new object as every mode of the bank has it.
+    std::vector<NewBlock> byMode(const RelativeGaussian& object) const;
 
     std::shared_ptr<const ModalSettings> settings_;
+    std::unique_ptr<JointBank> bank_;
+    Eigen::VectorXd mu_;
 };
 
 }  // namespace slamot

@@ -1,10 +1,16 @@
 #pragma once
-// A range-bearing detection against the joint state: linearisation, gate, and the start of new objects. The
-// second-order range terms belong to the invariant core; doc/plugins/ekf_slamot.md derives them.
+// A range-bearing detection against the joint state. The second-order range terms belong to the invariant
+// core; doc/plugins/ekf_slamot.md derives them.
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/estimation/JointBank.h"
 
 namespace slamot {
+
+/// A detection to come, without its noise: z = [range bearing] and its covariance.
+struct ExpectedDetection {
+    Vector2 z;
+    Matrix2 covariance;
+};
 
 struct Linearisation {
     LinearMeasurement measurement;
@@ -12,18 +18,23 @@ struct Linearisation {
     double nis;  ///< residual^t S^-1 residual
 };
 
-/// Linearises the detection of the object in `block` at the present mean. Throws std::domain_error when S is not
-/// positive definite.
-Linearisation linearise(const JointView& state, BlockId block, const RangeBearingDetection& detection,
-                        const Pose2& sensor, Consistency consistency);
+/// An object as a sensor is about to see it: all about a pair that the detection has no part in.
+struct ExpectedSight {
+    ExpectedDetection detection;    ///< H P H^t, second-order terms included
+    LinearMeasurement measurement;  ///< no residual yet; R: the second-order terms' variance alone
 
-/// Position of an object seen for the first time, its Jacobian with respect to the robot and its own covariance.
-struct FirstSight {
-    Vector2 position;
-    Eigen::Matrix<double, 2, 3> G;
-    Matrix2 own;
+    /// Throws std::domain_error when S is not positive definite.
+    Linearisation with(const RangeBearingDetection& seen) const;
 };
-FirstSight firstSight(const JointView& state, const RangeBearingDetection& detection, const Pose2& sensor,
-                      Consistency consistency);
+
+/// Linearises the sight of the object in `block`, whose position leads it, at the present mean.
+ExpectedSight expectedSight(const JointView& state, BlockId block, const Pose2& sensor,
+                            Consistency consistency);
+
+/// The same, with the detection.
+inline Linearisation linearise(const JointView& state, BlockId block, const RangeBearingDetection& detection,
+                               const Pose2& sensor, Consistency consistency) {
+    return expectedSight(state, block, sensor, consistency).with(detection);
+}
 
 }  // namespace slamot

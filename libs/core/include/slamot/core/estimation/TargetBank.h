@@ -46,6 +46,9 @@ class TargetBank {
     /// Step 4: a bank that has parted from the joint state is led back.
     void guard(const TargetGaussian& joint);
 
+    /// P += Q in every mode.
+    void widen(const Matrix6& Q);
+
     const Eigen::VectorXd& probabilities() const { return mu_; }
     TargetGaussian merged() const;
 

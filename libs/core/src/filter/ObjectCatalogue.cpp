@@ -1,4 +1,4 @@
-#include "slamot/core/estimation/ObjectCatalogue.h"
+#include "slamot/core/filter/ObjectCatalogue.h"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 
 namespace slamot {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "TextParts.h"
-#include "slamot/core/estimation/JointFilter.h"
+#include "../config/TextParts.h"
+#include "slamot/core/filter/JointFilter.h"
 
 namespace slamot {
 namespace {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 
 // Eigen calls malloc directly, so this program's malloc counts; the C library's own stands behind it.
 // Sanitizers bring their own, where this test has nothing to say.

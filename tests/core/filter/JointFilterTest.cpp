@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 #include "support/Scenes.h"

@@ -11,7 +11,7 @@
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/estimation/JointEngine.h"
 #include "slamot/core/estimation/ModalState.h"
-#include "slamot/core/estimation/ObjectCatalogue.h"
+#include "slamot/core/filter/ObjectCatalogue.h"
 
 namespace slamot {
 
@@ -96,6 +96,7 @@ class JointFilter {
     Stamp start_;
     std::vector<TargetModel> models_;  ///< of the modes, now
     KnownObjects known_;               ///< kept for its capacity
+    std::vector<BlockId> measured_;
 };
 
 }  // namespace slamot

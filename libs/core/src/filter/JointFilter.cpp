@@ -1,4 +1,4 @@
-#include "slamot/core/estimation/JointFilter.h"
+#include "slamot/core/filter/JointFilter.h"
 
 #include "slamot/core/estimation/BankedImm.h"
 #include "slamot/core/estimation/DecoupledImm.h"
@@ -9,8 +9,6 @@ std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p
                                                   const RobotMotionParameters& motion) {
     return std::make_shared<const ModalSettings>(ModalSettings{motion,
                                                                {p.outliers, p.gate_probability},
-                                                               p.target_velocity_std,
-                                                               p.target_acceleration_std,
                                                                chainOf(p.imm),
                                                                initialProbabilities(p.imm),
                                                                p.imm.likelihood});
@@ -55,9 +53,11 @@ UpdateReport JointFilter::update(const DetectionSet& set) {
     UpdateReport report;
     report.innovations.reserve(seen.detections.size());
     known_.clear();
+    measured_.clear();
     for (std::size_t i = 0; i < seen.detections.size(); ++i)
         report.innovations.push_back(associate(seen.detections[i], static_cast<int>(i)));
 
+    belief_->attend(seen, measured_);
     belief_->update(seen, known_, report.innovations);
 
     for (const Innovation& innovation : report.innovations) markSeen(innovation, set.stamp);
@@ -83,13 +83,13 @@ Innovation JointFilter::associate(const RangeBearingDetection& detection, int in
         if (!track) return innovation;
         innovation.track = track->id;
         known_.targets.push_back({index, track->block});
-        known_.blocks.push_back(track->block);
+        measured_.push_back(track->block);
     } else {
         const LandmarkRecord* landmark = objects_.landmarkBySource(detection.source);
         if (!landmark) return innovation;
         innovation.landmark = landmark->id;
         known_.landmarks.push_back({index, landmark->block});
-        known_.blocks.push_back(landmark->block);
+        measured_.push_back(landmark->block);
     }
     return innovation;
 }
@@ -106,6 +106,7 @@ void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
     const RangeBearingSet& seen = set.rangeBearing();
     const RangeBearingDetection& detection = seen.detections[innovation.detection];
     const Pose2& sensor = seen.sensors[detection.sensor].pose;
+    const RelativeGaussian point = firstSight(detection, sensor, parameters_.consistency);
     const bool mover = innovation.kind == ObjectKind::mover;
     const bool known = mover ? objects_.trackBySource(detection.source) != nullptr
                              : objects_.landmarkBySource(detection.source) != nullptr;
@@ -114,12 +115,14 @@ void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
         innovation.outcome = Outcome::ignored;
         return;
     }
-    if (mover)
-        innovation.track =
-            objects_.addTrack(belief_->addTarget(detection, sensor), detection.source, set.stamp).id;
-    else
-        innovation.landmark =
-            objects_.addLandmark(belief_->addLandmark(detection, sensor), detection.source, set.stamp).id;
+    if (mover) {
+        const BlockId block = belief_->addTarget(
+            moverAt(point, parameters_.target_velocity_std, parameters_.target_acceleration_std));
+        innovation.track = objects_.addTrack(block, detection.source, set.stamp).id;
+    } else {
+        const BlockId block = belief_->addLandmark(point);
+        innovation.landmark = objects_.addLandmark(block, detection.source, set.stamp).id;
+    }
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {

@@ -1,0 +1,69 @@
+#pragma once
+// Detections of one batch and the objects of a joint state that may have been seen: which comes from which.
+// Landmarks first, then movers given the landmarks found (doc/maths/association.md).
+#include <vector>
+
+#include "slamot/core/association/ChiSquare.h"
+#include "slamot/core/config/Parameters.h"
+#include "slamot/core/estimation/JointBank.h"
+
+namespace slamot {
+
+enum class LandmarkAssociation { known, nearest, sequential, jcbb, gnn };
+enum class MoverAssociation { known, nearest, gnn, jpda };
+
+struct AssociationParameters {
+    LandmarkAssociation landmarks = LandmarkAssociation::jcbb;
+    MoverAssociation movers = MoverAssociation::gnn;
+    double gate_probability = 0.999;
+    /// A detection within this gate of an object that is not seen otherwise starts no new one.
+    double separation_probability = 1 - 1e-6;
+    int node_budget = 1000;   ///< of joint compatibility branch and bound
+    int state_budget = 2000;  ///< of the exact sums of JPDA
+};
+
+/// The table `[name]`.
+ParameterTable describe(AssociationParameters& parameters, const std::string& name);
+
+/// An object of the joint state that may be seen now.
+struct VisibleObject {
+    BlockId block;
+    ObjectKind kind;  ///< landmark or mover; detections of unknown kind may come from either
+    double detection_probability;
+};
+
+struct BatchAssociation {
+    struct Pair {
+        int object = -1;  ///< number among the visible objects; -1: none
+        double nis = 0;
+        /// P_D N(nu; 0, S) / c: how much likelier the detection is to come from it than from clutter.
+        double likelihood_ratio = 0;
+    };
+    std::vector<Pair> of_detection;  ///< by number of detection
+    /// By number of detection: no object explains it, nor one that nothing else was paired with lies within
+    /// the separation gate: it may be of something new.
+    std::vector<bool> may_be_new;
+
+    /// JPDA: what a mover is to be updated with in place of its detection, weighed over all that its gate
+    /// holds; by number of detection, as far as paired.
+    std::vector<RangeBearingDetection> merged;
+    bool soft = false;  ///< whether `merged` holds them
+};
+
+class BatchAssociator {
+  public:
+    BatchAssociator(const AssociationParameters& parameters, Consistency consistency);
+
+    /// detections: those to associate, ascending; clutter_density: by number of detection, 1/(m rad), new
+    /// objects included. The objects' blocks are within reach of `state`, and differ from one another.
+    BatchAssociation associate(const JointView& state, const std::vector<VisibleObject>& objects,
+                               const RangeBearingSet& seen, const std::vector<int>& detections,
+                               const std::vector<double>& clutter_density);
+
+  private:
+    AssociationParameters parameters_;
+    Consistency consistency_;
+    PairGates gates_, separation_;
+};
+
+}  // namespace slamot

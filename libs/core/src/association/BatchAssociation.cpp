@@ -1,0 +1,287 @@
+#include "slamot/core/association/BatchAssociation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "slamot/core/association/AssociationMarginals.h"
+#include "slamot/core/association/GatedPairs.h"
+#include "slamot/core/association/GlobalNearestNeighbour.h"
+#include "slamot/core/association/JointCompatibility.h"
+#include "slamot/core/association/LinearInnovations.h"
+#include "slamot/core/association/MergedDetection.h"
+#include "slamot/core/association/NearestNeighbour.h"
+#include "slamot/core/association/SequentialCompatibility.h"
+#include "slamot/core/estimation/GatheredView.h"
+#include "slamot/core/models/RangeBearing.h"
+
+namespace slamot {
+namespace {
+
+/// JPDA: what is likelier than this to come from a mover weighs in; the rest cannot matter.
+constexpr double least_weight = 1e-3;
+
+/// Some candidates of a problem, as a problem of its own.
+struct Part {
+    AssociationProblem problem;
+    std::vector<int> in_whole;  ///< by candidate: its number in the whole
+};
+
+/// Those that `chosen` gives, which may differ from the whole's in likelihood and NIS.
+Part part(const AssociationProblem& whole, const std::function<bool(int, Candidate&)>& chosen) {
+    std::vector<Candidate> candidates;
+    std::vector<int> in_whole;
+    for (int c = 0; c < whole.candidates(); ++c) {
+        Candidate candidate = whole.candidate(c);
+        if (!chosen(c, candidate)) continue;
+        candidates.push_back(candidate);
+        in_whole.push_back(c);
+    }
+    return {AssociationProblem(whole.detections(), whole.objects(), std::move(candidates)),
+            std::move(in_whole)};
+}
+
+class PartInnovations : public JointInnovations {
+  public:
+    PartInnovations(JointInnovations& whole, const std::vector<int>& in_whole)
+        : whole_(whole), in_whole_(in_whole) {}
+    Vector2 residual(int candidate) const override { return whole_.residual(of(candidate)); }
+    Matrix2 covariance(int a, int b) override { return whole_.covariance(of(a), of(b)); }
+
+  private:
+    int of(int candidate) const { return in_whole_[static_cast<std::size_t>(candidate)]; }
+    JointInnovations& whole_;
+    const std::vector<int>& in_whole_;
+};
+
+/// A batch in the making. An object is detected once at most by a sensor, so each sensor has its turn.
+class Batch {
+  public:
+    Batch(const AssociationParameters& parameters, const GatheredView& view,
+          const std::vector<VisibleObject>& objects, const RangeBearingSet& seen,
+          const std::vector<double>& clutter_density, const GatedPairs& wide, double gate)
+        : parameters_(parameters),
+          objects_(objects),
+          seen_(seen),
+          wide_(wide),
+          innovations_(view, wide.measurements),
+          gate_(gate) {
+        for (const VisibleObject& object : objects)
+            model_.detection_probability.push_back(object.detection_probability);
+        model_.clutter_density = clutter_density;
+        model_.gate_probability = parameters.gate_probability;
+    }
+
+    void landmarks(int sensor, PairGates& gates, BatchAssociation& out);
+    /// Given the landmarks of all sensors.
+    void movers(int sensor, BatchAssociation& out);
+    void findNew(int sensor, BatchAssociation& out) const;
+
+  private:
+    const RangeBearingDetection& detectionOf(const Candidate& c) const {
+        return seen_.detections[static_cast<std::size_t>(c.detection)];
+    }
+    const VisibleObject& objectOf(const Candidate& c) const {
+        return objects_[static_cast<std::size_t>(c.object)];
+    }
+    bool isMover(const Candidate& c) const { return objectOf(c).kind == ObjectKind::mover; }
+    Pairing landmarkPairing(const Part& part, JointInnovations& innovations, PairGates& gates) const;
+    void accept(const Candidate& candidate, int in_whole, BatchAssociation& out);
+    void mergeMovers(const Part& part, InnovationFactor& given, BatchAssociation& out);
+
+    const AssociationParameters& parameters_;
+    const std::vector<VisibleObject>& objects_;
+    const RangeBearingSet& seen_;
+    const GatedPairs& wide_;
+    LinearInnovations innovations_;
+    DetectionModel model_;
+    double gate_;
+    std::vector<int> landmark_pairs_;  ///< candidates of the whole
+};
+
+void Batch::accept(const Candidate& c, int in_whole, BatchAssociation& out) {
+    const double density = model_.clutter_density[static_cast<std::size_t>(c.detection)];
+    out.of_detection[static_cast<std::size_t>(c.detection)] = {
+        c.object, c.nis,
+        objectOf(c).detection_probability * std::exp(std::min(c.log_likelihood, 500.0)) / density};
+    if (!isMover(c)) landmark_pairs_.push_back(in_whole);
+}
+
+void Batch::landmarks(int sensor, PairGates& gates, BatchAssociation& out) {
+    if (parameters_.landmarks == LandmarkAssociation::known) return;
+    // Movers compete for what may be of either; such pairs are made in the movers' own turn.
+    const Part candidates = part(wide_.problem, [&](int, Candidate& c) {
+        return detectionOf(c).sensor == sensor && c.nis <= gate_ &&
+               (!isMover(c) || detectionOf(c).kind == ObjectKind::unknown);
+    });
+    PartInnovations innovations(innovations_, candidates.in_whole);
+    const Pairing pairing = landmarkPairing(candidates, innovations, gates);
+    for (const int c : pairing.candidate_of_detection)
+        if (c >= 0 && !isMover(candidates.problem.candidate(c)))
+            accept(candidates.problem.candidate(c), candidates.in_whole[static_cast<std::size_t>(c)], out);
+}
+
+Pairing Batch::landmarkPairing(const Part& candidates, JointInnovations& innovations,
+                               PairGates& gates) const {
+    switch (parameters_.landmarks) {
+        case LandmarkAssociation::nearest:
+            return nearestNeighbour(candidates.problem);
+        case LandmarkAssociation::sequential:
+            return sequentialCompatibility(candidates.problem, innovations, gates);
+        case LandmarkAssociation::gnn:
+            return globalNearestNeighbour(candidates.problem, model_);
+        default:
+            return jointCompatibility(candidates.problem, innovations, gates, parameters_.node_budget)
+                .pairing;
+    }
+}
+
+void Batch::movers(int sensor, BatchAssociation& out) {
+    if (parameters_.movers == MoverAssociation::known) return;
+    InnovationFactor given(innovations_, static_cast<int>(landmark_pairs_.size()) + 1);
+    for (const int c : landmark_pairs_) given.push(c);
+    const double nis_of_landmarks = given.nis();
+    const Part candidates = part(wide_.problem, [&](int in_whole, Candidate& c) {
+        if (!isMover(c) || detectionOf(c).sensor != sensor) return false;
+        if (out.of_detection[static_cast<std::size_t>(c.detection)].object >= 0) return false;
+        if (!given.push(in_whole)) return false;
+        c.nis = given.nis() - nis_of_landmarks;
+        c.log_likelihood = given.logConditional();
+        given.pop();
+        return c.nis <= gate_;
+    });
+    if (parameters_.movers == MoverAssociation::jpda) return mergeMovers(candidates, given, out);
+    const Pairing pairing = parameters_.movers == MoverAssociation::nearest
+                                ? nearestNeighbour(candidates.problem)
+                                : globalNearestNeighbour(candidates.problem, model_);
+    for (const int c : pairing.candidate_of_detection)
+        if (c >= 0)
+            accept(candidates.problem.candidate(c), candidates.in_whole[static_cast<std::size_t>(c)], out);
+}
+
+void Batch::mergeMovers(const Part& candidates, InnovationFactor& given, BatchAssociation& out) {
+    const AssociationMarginals marginals =
+        associationMarginals(candidates.problem, model_, parameters_.state_budget);
+    const auto weight = [&](int c) { return marginals.pair[static_cast<std::size_t>(c)]; };
+    // A mover's likeliest detection stands for it: the likeliest of all pairs first.
+    std::vector<int> order;
+    std::vector<std::vector<int>> of_object(objects_.size());
+    for (int c = 0; c < candidates.problem.candidates(); ++c) {
+        if (weight(c) < least_weight) continue;
+        order.push_back(c);
+        of_object[static_cast<std::size_t>(candidates.problem.candidate(c).object)].push_back(c);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::make_tuple(-weight(a), a) < std::make_tuple(-weight(b), b); });
+    std::vector<char> taken(objects_.size(), 0);
+    for (const int c : order) {
+        const Candidate& pair = candidates.problem.candidate(c);
+        char& object_taken = taken[static_cast<std::size_t>(pair.object)];
+        if (object_taken || out.of_detection[static_cast<std::size_t>(pair.detection)].object >= 0) continue;
+        object_taken = 1;
+
+        std::vector<WeighedInnovation> weighed;
+        Matrix2 P_y = Matrix2::Zero();
+        Vector2 expected = Vector2::Zero();
+        for (const int other : of_object[static_cast<std::size_t>(pair.object)]) {
+            const int in_whole = candidates.in_whole[static_cast<std::size_t>(other)];
+            given.push(in_whole);
+            const auto [residual, S] = given.conditional();
+            given.pop();
+            const Matrix2& noise = wide_.measurements[static_cast<std::size_t>(in_whole)].R;
+            weighed.push_back({weight(other), residual, noise});
+            P_y = S - noise;
+            expected = detectionOf(candidates.problem.candidate(other)).z() - residual;
+        }
+        const MergedInnovation merged = mergedInnovation(P_y, weighed);
+        RangeBearingDetection& detection = out.merged[static_cast<std::size_t>(pair.detection)];
+        const Vector2 z = expected + merged.residual;
+        detection.range = z.x();
+        detection.bearing = wrapAngle(z.y());
+        detection.covariance = merged.noise;
+        accept(pair, candidates.in_whole[static_cast<std::size_t>(c)], out);
+    }
+}
+
+void Batch::findNew(int sensor, BatchAssociation& out) const {
+    std::vector<char> taken(objects_.size(), 0);
+    for (int c = 0; c < wide_.problem.candidates(); ++c) {
+        const Candidate& pair = wide_.problem.candidate(c);
+        if (detectionOf(pair).sensor == sensor &&
+            out.of_detection[static_cast<std::size_t>(pair.detection)].object == pair.object)
+            taken[static_cast<std::size_t>(pair.object)] = 1;
+    }
+    for (int c = 0; c < wide_.problem.candidates(); ++c) {
+        const Candidate& pair = wide_.problem.candidate(c);
+        if (detectionOf(pair).sensor == sensor && !taken[static_cast<std::size_t>(pair.object)])
+            out.may_be_new[static_cast<std::size_t>(pair.detection)] = false;
+    }
+}
+
+}  // namespace
+
+ParameterTable describe(AssociationParameters& p, const std::string& name) {
+    ParameterTable table(name, "Which object a detection without an identity comes from.");
+    table
+        .choice("landmarks", p.landmarks,
+                {{"jcbb", LandmarkAssociation::jcbb},
+                 {"sequential", LandmarkAssociation::sequential},
+                 {"nearest", LandmarkAssociation::nearest},
+                 {"gnn", LandmarkAssociation::gnn},
+                 {"known", LandmarkAssociation::known}},
+                "jcbb: the largest jointly compatible set of pairs; sequential: pair by pair, each in the "
+                "light of those before; nearest: each pair alone; gnn: the likeliest assignment of all; "
+                "known: detections without an identity are ignored.")
+        .choice("movers", p.movers,
+                {{"gnn", MoverAssociation::gnn},
+                 {"jpda", MoverAssociation::jpda},
+                 {"nearest", MoverAssociation::nearest},
+                 {"known", MoverAssociation::known}},
+                "As for landmarks; jpda: each mover is updated with all detections in its gate, weighed by "
+                "probability.")
+        .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
+              "Part of an object's detections that lie inside its gate.")
+        .real("separation_probability", p.separation_probability, "-", Interval::openProbability(),
+              "A detection inside this gate of an object that is not seen otherwise starts no new object.")
+        .integer("node_budget", p.node_budget, Interval::between(1, 1000000),
+                 "Extensions of hypotheses that jcbb tries at most; beyond, the best met so far is taken, at "
+                 "least as good as the sequential one.")
+        .integer("state_budget", p.state_budget, Interval::between(1, 1000000),
+                 "States of jpda's exact sums at most; beyond, belief propagation approximates them.");
+    return table;
+}
+
+BatchAssociator::BatchAssociator(const AssociationParameters& parameters, Consistency consistency)
+    : parameters_(parameters),
+      consistency_(consistency),
+      gates_(parameters.gate_probability),
+      separation_(std::max(parameters.separation_probability, parameters.gate_probability)) {}
+
+BatchAssociation BatchAssociator::associate(const JointView& state, const std::vector<VisibleObject>& objects,
+                                            const RangeBearingSet& seen, const std::vector<int>& detections,
+                                            const std::vector<double>& clutter_density) {
+    BatchAssociation out;
+    out.of_detection.resize(seen.detections.size());
+    out.may_be_new.resize(seen.detections.size(), false);
+    out.merged = seen.detections;
+    out.soft = parameters_.movers == MoverAssociation::jpda;
+    for (const int d : detections) out.may_be_new[static_cast<std::size_t>(d)] = true;
+
+    std::vector<BlockId> blocks;
+    for (const VisibleObject& object : objects) blocks.push_back(object.block);
+    const GatheredView view(state, blocks);
+    const auto may_pair = [&](int d, int o) {
+        const ObjectKind kind = seen.detections[static_cast<std::size_t>(d)].kind;
+        return kind == ObjectKind::unknown || kind == objects[static_cast<std::size_t>(o)].kind;
+    };
+    const GatedPairs wide = gatedPairs(view, blocks, seen, detections, consistency_, separation_, may_pair);
+    Batch batch(parameters_, view, objects, seen, clutter_density, wide, gates_(1));
+    const int sensors = static_cast<int>(seen.sensors.size());
+    for (int sensor = 0; sensor < sensors; ++sensor) batch.landmarks(sensor, gates_, out);
+    for (int sensor = 0; sensor < sensors; ++sensor) batch.movers(sensor, out);
+    for (int sensor = 0; sensor < sensors; ++sensor) batch.findNew(sensor, out);
+    return out;
+}
+
+}  // namespace slamot
