@@ -1,8 +1,16 @@
 #include "slamot/core/objects/Existence.h"
 
+#include <algorithm>
+
 #include "TwoStateChain.h"
 
 namespace slamot {
+namespace {
+
+/// What has been there for long may still be taken away, and rounding must not make it immortal.
+constexpr double least_absent = 1e-9;
+
+}  // namespace
 
 Existence Existence::certain() {
     return {};
@@ -24,7 +32,7 @@ void Existence::pass(double dt, const LifeParameters& p) {
 
 void Existence::weigh(double visible) {
     if (certain_) return;
-    const double absent = 1.0 - visible_ - hidden_;
+    const double absent = initial_ < 1 ? std::max(1.0 - visible_ - hidden_, least_absent) : 0.0;
     const double all = visible_ * visible + hidden_ + absent;
     visible_ *= visible / all;
     hidden_ /= all;
