@@ -204,6 +204,35 @@ TEST(TentativeObjectsTest, TwoSensorsSeeOneObjectOnceEach) {
     EXPECT_NEAR(robot.objects.objects()[1].track.asLandmark().position().x(), -5, 1e-12);
 }
 
+TEST(TentativeObjectsTest, ATurnedSensorTellsTheSame) {
+    // What moves across the robot's back, 0.3 rad to either side, beside what stands there.
+    const auto run = [](double turn) {
+        AtRest robot(neverConfirmed());
+        RangeBearingSensor sensor = sensorOf(unknown);
+        sensor.pose.theta = turn;
+        for (int scan = 0; scan < 13; ++scan)
+            robot.see({sensor}, {detectionOf(6, wrapAngle(pi - 0.3 + 0.05 * scan - turn), unknown),
+                                 detectionOf(8, wrapAngle(pi + 0.01 * (scan % 2) - turn), unknown)});
+        return robot.objects.objects();
+    };
+    const auto straight = run(0);
+    ASSERT_EQ(straight.size(), 2u);
+    EXPECT_GT(straight[0].track.movingProbability(), 0.9);
+    EXPECT_LT(straight[1].track.movingProbability(), 0.1);
+    for (int k = 1; k < 24; ++k) {
+        const auto turned = run(radians(15.0 * k));
+        ASSERT_EQ(turned.size(), 2u) << k;
+        for (std::size_t o = 0; o < 2; ++o) {
+            // Rounding of thirteen updates.
+            EXPECT_EQ(turned[o].seen, 13);
+            EXPECT_NEAR(turned[o].track.movingProbability(), straight[o].track.movingProbability(), 1e-9)
+                << k;
+            EXPECT_TRUE(test::near(turned[o].track.asMover().mean, straight[o].track.asMover().mean, 1e-9))
+                << k;
+        }
+    }
+}
+
 TEST(TentativeObjectsTest, OneDetectionForOneObject) {
     // Two objects 0.4 m apart and two detections, both nearer to the first: each gets one.
     AtRest robot(neverConfirmed());
