@@ -12,9 +12,6 @@ constexpr double least_doubt = 0.01;
 
 }  // namespace
 
-KindWatch::KindWatch(const MotionChange& change, double velocity_std, double acceleration_std)
-    : change_(change), velocity_std_(velocity_std), acceleration_std_(acceleration_std) {}
-
 void KindWatch::predict(const RelativeStep& step, const TargetModel& model) {
     for (auto at = watched_.begin(); at != watched_.end();) {
         Watched& watched = at->second;
@@ -32,11 +29,11 @@ double KindWatch::look(BlockId block, double moving, const RangeBearingDetection
                        const Pose2& sensor, Consistency consistency) {
     const auto known = watched_.find(block);
     if (known == watched_.end()) {
-        const double doubted = std::clamp(moving, least_doubt, 1 - least_doubt);
-        watched_.emplace(block, Watched{RelativeTrack(firstSight(detection, sensor, consistency), doubted,
-                                                      velocity_std_, acceleration_std_),
-                                        0});
-        return doubted;
+        MotionChange believed = change_;
+        believed.moving_probability = std::clamp(moving, least_doubt, 1 - least_doubt);
+        const RelativeGaussian point = firstSight(detection, sensor, consistency);
+        watched_.emplace(block, Watched{RelativeTrack::unknown(point, believed), 0});
+        return believed.moving_probability;
     }
     known->second.unseen = 0;
     known->second.track.update(detection, sensor);

@@ -74,7 +74,7 @@ ObjectLife::ObjectLife(const ObjectLifeParameters& parameters, Consistency consi
       acceleration_std_(acceleration_std),
       pair_gate_(chiSquareQuantile(gate_probability, 2)),
       tentative_(tentativeParameters(parameters, velocity_std, acceleration_std, gate_probability)),
-      kinds_(parameters.change, parameters.change.velocity_std, acceleration_std),
+      kinds_(parameters.change),
       duplicates_(parameters.landmarks.detection_probability, parameters.merge_probability),
       lost_(parameters.reidentify_probability, parameters.reidentify_within) {}
 

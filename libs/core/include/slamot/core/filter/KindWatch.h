@@ -10,8 +10,7 @@ namespace slamot {
 /// alone: as both.
 class KindWatch {
   public:
-    /// velocity_std, acceleration_std: of movers at first sight.
-    KindWatch(const MotionChange& change, double velocity_std, double acceleration_std);
+    explicit KindWatch(const MotionChange& change) : change_(change) {}
 
     void clear() { watched_.clear(); }
     bool watching() const { return !watched_.empty(); }
@@ -32,7 +31,6 @@ class KindWatch {
     };
 
     MotionChange change_;
-    double velocity_std_, acceleration_std_;
     std::map<BlockId, Watched> watched_;
 };
 
