@@ -62,8 +62,11 @@ TEST(JointFilterTest, ObjectsStartAtFirstSight) {
     EXPECT_TRUE(near(tracks[0].covariance.diagonal().tail<4>(), Eigen::Vector4d(9, 9, 4, 4), 1e-14));
 }
 
-TEST(JointFilterTest, UnknownDetectionsAreIgnored) {
-    JointFilter filter = started();
+TEST(JointFilterTest, WithKnownAssociationAloneDetectionsWithoutIdentityAreIgnored) {
+    JointFilterParameters parameters;
+    parameters.association.landmarks = LandmarkAssociation::known;
+    parameters.association.movers = MoverAssociation::known;
+    JointFilter filter = started(parameters);
     const auto report = filter.update(
         detectionsAt(0, {seen({}, {5, 0}, landmark, -1), seen({}, {5, 0}, ObjectKind::unknown, 3),
                          seen({}, {1, 1}, mover, -1)}));

@@ -140,7 +140,7 @@ void ObjectAssociation::pair(ObjectCatalogue& objects, const std::vector<Visible
         innovation.kind = object.kind;
         if (object.kind == ObjectKind::mover) {
             innovation.track = objects.trackOf(object.block)->id;
-            batch.known.targets.push_back({innovation.detection, object.block});
+            batch.known.targets.push_back({innovation.detection, object.block, found.soft});
         } else {
             innovation.landmark = objects.landmarkOf(object.block)->id;
             batch.known.landmarks.push_back({innovation.detection, object.block});

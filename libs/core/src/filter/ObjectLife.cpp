@@ -198,8 +198,9 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
                 return sights.count(block) > 0 ||
                        surelySeenByAny(view, block, ObjectKind::landmark, batch.seen, consistency_);
             };
-            if (in_view(a) && in_view(b))
-                duplicates_.look(a, b, sights.count(a) > 0, sights.count(b) > 0);
+            // Neighbours may be hidden together: a scan that shows neither says nothing of the two.
+            const bool a_seen = sights.count(a) > 0, b_seen = sights.count(b) > 0;
+            if ((a_seen || b_seen) && in_view(a) && in_view(b)) duplicates_.look(a, b, a_seen, b_seen);
         }
     }
 }
