@@ -37,10 +37,10 @@ TentativeParameters noOcclusions() {
     return p;
 }
 
-/// Nor anything confirmed by a few detections.
+/// Nor anything ever confirmed: clutter leaves a doubt.
 TentativeParameters neverConfirmed() {
     TentativeParameters p = noOcclusions();
-    p.landmarks.confirm_probability = p.movers.confirm_probability = 1 - 1e-12;
+    p.landmarks.confirm_probability = p.movers.confirm_probability = 1;
     return p;
 }
 
