@@ -115,6 +115,47 @@ TEST_F(RunJobTest, TheFolderReadsBackAsTheResultsRecord) {
     EXPECT_EQ(read.innovations.size(), 120u);
 }
 
+TEST_F(RunJobTest, AssociationsAreFoundByTheLogsNumbersThroughClutter) {
+    writeLog(path("a.rawlog"), drive());
+    Truth truth;
+    for (int k = 0; k < 40; ++k) {
+        truth.robot.push_back({at(0.2 * k), {0.2 * k, 0, 0}});
+        const Stamp stamp = at(0.2 * k + 0.07);
+        truth.associations.push_back({stamp, 0, "landmark", SourceId{1}});
+        truth.associations.push_back({stamp, 1, "landmark", SourceId{2}});
+        truth.associations.push_back({stamp, 2, "mover", SourceId{1}});
+    }
+    run::RunRequest request;
+    request.config = Config::fromText("[clutter]\nper_scan = 1.5\ndetection_probability = 0.7\n", "my.ini");
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.truth = &truth;
+    request.truth_folder = "a.truth";
+    const auto result = run::runLog(request, registry());
+    const auto& counts = result.summary["counts"];
+    const auto added = counts["clutter_added"].get<int>(),
+               withheld = counts["detections_withheld"].get<int>();
+    EXPECT_GT(added, 60);     // of 120 on average: 80 observations
+    EXPECT_GT(withheld, 15);  // of 36 on average
+    EXPECT_EQ(counts["detections"], 120 - withheld + added);
+
+    const auto read = eval::evaluate(eval::readRun(path("out")), truth, {});
+    for (const eval::Metrics& metrics : {*result.metrics, read}) {
+        ASSERT_TRUE(metrics.association);
+        EXPECT_EQ(metrics.association->used, counts["detections"]);
+        EXPECT_EQ(metrics.association->without_truth, 0);
+        EXPECT_EQ(metrics.association->unnumbered, 0);
+        EXPECT_EQ(metrics.association->all.detections, 120 - withheld);
+        // A log without noise: identities find all of it, whatever becomes of the clutter.
+        EXPECT_EQ(metrics.association->all.found, 120 - withheld);
+        EXPECT_EQ(metrics.association->all.right, 120 - withheld);
+    }
+    // Other draws, other numbers of detections.
+    request.config.set("run", "seed", "2");
+    request.out_folder = path("out2");
+    EXPECT_NE(run::runLog(request, registry()).estimate_hash, result.estimate_hash);
+}
+
 TEST_F(RunJobTest, ALogInTheOutputFolderIsNotDestroyed) {
     writeLog(path("a.rawlog"), drive());
     runLog("a.rawlog", "");
