@@ -123,6 +123,38 @@ TEST(RangeBearingUpdateTest, BearingsMeetOnTheShortWay) {
     }
 }
 
+TEST(RangeBearingUpdateTest, WhatIsExpectedTakesAnyDetection) {
+    // One sight serves all detections: each as if linearised alone, whatever came before it.
+    const DenseJointBank bank = correlatedState();
+    const JointView& state = bank.mode(0);
+    const Pose2 sensor{0.5, -0.2, 0.3};
+    for (const Consistency consistency : {Consistency::classic, Consistency::invariant}) {
+        const ExpectedSight sight = expectedSight(state, 1, sensor, consistency);
+        for (const auto& [range, bearing, scale] :
+             {std::make_tuple(9.0, 0.3, 1.0), std::make_tuple(12.0, -3.1, 4.0),
+              std::make_tuple(0.5, 3.1, 0.1)}) {
+            RangeBearingDetection detection = detectionOf(range, bearing);
+            detection.covariance *= scale;
+            const Linearisation with = sight.with(detection),
+                                alone = linearise(state, 1, detection, sensor, consistency);
+            EXPECT_EQ(with.measurement.residual, alone.measurement.residual);
+            EXPECT_EQ(with.measurement.R, alone.measurement.R);
+            EXPECT_EQ(with.S, alone.S);
+            EXPECT_EQ(with.nis, alone.nis);
+            // By what the sight says: z - expected, and its covariance with the detection's.
+            const Vector2 nu = rangeBearingResidual(detection.z(), sight.detection.z);
+            EXPECT_EQ(with.measurement.residual, nu);
+            EXPECT_TRUE(near(with.S, sight.detection.covariance + detection.covariance, 1e-14));
+            EXPECT_NEAR(with.nis, nu.dot(with.S.inverse() * nu), 1e-10 * with.nis);
+            // H P H^t + R by the measurement's own terms is S.
+            Eigen::Matrix<double, 2, 5> H;
+            H << with.measurement.terms[0].H, with.measurement.terms[1].H;
+            EXPECT_TRUE(
+                near(H * state.jointCovariance({0, 1}) * H.transpose() + with.measurement.R, with.S, 1e-13));
+        }
+    }
+}
+
 TEST(RangeBearingUpdateTest, RefusesAnIndefiniteS) {
     const DenseJointBank bank = correlatedState();
     const JointView& state = bank.mode(0);

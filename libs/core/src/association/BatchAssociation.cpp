@@ -22,6 +22,19 @@ namespace {
 /// JPDA: what is likelier than this to come from a mover weighs in; the rest cannot matter.
 constexpr double least_weight = 1e-3;
 
+/// JPDA: what is as uncertain after the detections as before gets this noise, in units of P_y...
+constexpr double most_noise = 20;
+/// ... or less, where bearings further off than this [rad] would do so: they would come near a half turn.
+constexpr double most_bearing = 0.5 * pi;
+
+MergedInnovation mergedWithin(const Matrix2& P_y, const std::vector<WeighedInnovation>& weighed) {
+    double noise = most_noise;
+    MergedInnovation out = mergedInnovation(P_y, weighed, noise);
+    while (std::abs(out.residual.y()) > most_bearing && noise > 0.1)
+        out = mergedInnovation(P_y, weighed, noise *= 0.5);
+    return out;
+}
+
 /// Some candidates of a problem, as a problem of its own.
 struct Part {
     AssociationProblem problem;
@@ -110,10 +123,14 @@ void Batch::accept(const Candidate& c, int in_whole, BatchAssociation& out) {
 
 void Batch::landmarks(int sensor, PairGates& gates, BatchAssociation& out) {
     if (parameters_.landmarks == LandmarkAssociation::known) return;
-    // Movers compete for what may be of either; such pairs are made in the movers' own turn.
+    // Where a detection may be of either, movers compete, for it and for those of their own; their pairs are
+    // made in their own turn.
+    const bool contested = std::any_of(
+        seen_.detections.begin(), seen_.detections.end(), [sensor](const RangeBearingDetection& detection) {
+            return detection.sensor == sensor && detection.kind == ObjectKind::unknown;
+        });
     const Part candidates = part(wide_.problem, [&](int, Candidate& c) {
-        return detectionOf(c).sensor == sensor && c.nis <= gate_ &&
-               (!isMover(c) || detectionOf(c).kind == ObjectKind::unknown);
+        return detectionOf(c).sensor == sensor && c.nis <= gate_ && (!isMover(c) || contested);
     });
     PartInnovations innovations(innovations_, candidates.in_whole);
     const Pairing pairing = landmarkPairing(candidates, innovations, gates);
@@ -185,16 +202,15 @@ void Batch::mergeMovers(const Part& candidates, InnovationFactor& given, BatchAs
         Matrix2 P_y = Matrix2::Zero();
         Vector2 expected = Vector2::Zero();
         for (const int other : of_object[static_cast<std::size_t>(pair.object)]) {
-            const int in_whole = candidates.in_whole[static_cast<std::size_t>(other)];
-            given.push(in_whole);
+            const RangeBearingDetection& seen = detectionOf(candidates.problem.candidate(other));
+            given.push(candidates.in_whole[static_cast<std::size_t>(other)]);
             const auto [residual, S] = given.conditional();
             given.pop();
-            const Matrix2& noise = wide_.measurements[static_cast<std::size_t>(in_whole)].R;
-            weighed.push_back({weight(other), residual, noise});
-            P_y = S - noise;
-            expected = detectionOf(candidates.problem.candidate(other)).z() - residual;
+            weighed.push_back({weight(other), residual, seen.covariance});
+            P_y = S - seen.covariance;  // with the second-order terms, which the update adds itself
+            expected = seen.z() - residual;
         }
-        const MergedInnovation merged = mergedInnovation(P_y, weighed);
+        const MergedInnovation merged = mergedWithin(P_y, weighed);
         RangeBearingDetection& detection = out.merged[static_cast<std::size_t>(pair.detection)];
         const Vector2 z = expected + merged.residual;
         detection.range = z.x();
@@ -206,11 +222,11 @@ void Batch::mergeMovers(const Part& candidates, InnovationFactor& given, BatchAs
 
 void Batch::findNew(int sensor, BatchAssociation& out) const {
     std::vector<char> taken(objects_.size(), 0);
-    for (int c = 0; c < wide_.problem.candidates(); ++c) {
-        const Candidate& pair = wide_.problem.candidate(c);
-        if (detectionOf(pair).sensor == sensor &&
-            out.of_detection[static_cast<std::size_t>(pair.detection)].object == pair.object)
-            taken[static_cast<std::size_t>(pair.object)] = 1;
+    for (std::size_t d = 0; d < seen_.detections.size(); ++d) {
+        const int object = out.of_detection[d].object;
+        if (seen_.detections[d].sensor != sensor || object < 0) continue;
+        taken[static_cast<std::size_t>(object)] = 1;
+        out.may_be_new[d] = false;
     }
     for (int c = 0; c < wide_.problem.candidates(); ++c) {
         const Candidate& pair = wide_.problem.candidate(c);
@@ -266,7 +282,13 @@ BatchAssociation BatchAssociator::associate(const JointView& state, const std::v
     out.may_be_new.resize(seen.detections.size(), false);
     out.merged = seen.detections;
     out.soft = parameters_.movers == MoverAssociation::jpda;
-    for (const int d : detections) out.may_be_new[static_cast<std::size_t>(d)] = true;
+    for (const int d : detections) {
+        const ObjectKind kind = seen.detections[static_cast<std::size_t>(d)].kind;
+        const bool landmark = kind != ObjectKind::mover, mover = kind != ObjectKind::landmark;
+        out.may_be_new[static_cast<std::size_t>(d)] =
+            !(landmark && parameters_.landmarks == LandmarkAssociation::known) &&
+            !(mover && parameters_.movers == MoverAssociation::known);
+    }
 
     std::vector<BlockId> blocks;
     for (const VisibleObject& object : objects) blocks.push_back(object.block);

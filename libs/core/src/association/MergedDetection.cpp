@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace slamot {
 
@@ -28,7 +29,8 @@ MergedInnovation mergedInnovation(const Matrix2& P_y, const std::vector<WeighedI
     const Eigen::SelfAdjointEigenSolver<Matrix2> axes(0.5 * (whitened + whitened.transpose()));
     Vector2 r;
     for (int k = 0; k < 2; ++k) {
-        const double information = 1 / axes.eigenvalues()(k) - 1;
+        // Rounding must not turn what is all but certain into what knows nothing.
+        const double information = 1 / std::max(axes.eigenvalues()(k), 1e-12) - 1;
         r(k) = information * most_noise > 1 ? 1 / information : most_noise;
     }
     const Matrix2 V = L * axes.eigenvectors();

@@ -63,6 +63,15 @@ void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
     update_by_landmarks_(bank_->mode(0), bank_->consistency(), settings().gate, seen, known.landmarks,
                          innovations);
     updateByTargets(seen, known, innovations);
+    synchronise();
+}
+
+void BankedImm::mergeLandmarks(BlockId kept, BlockId gone, double deviation) {
+    ModalState::mergeLandmarks(kept, gone, deviation);
+    synchronise();
+}
+
+void BankedImm::synchronise() {
     for (auto& [target, bank] : targets_) bank.synchronise(marginal(target));
 }
 
@@ -89,7 +98,7 @@ void BankedImm::measure(const RangeBearingSet& seen, const KnownObjects::Sight& 
     bank.synchronise(marginal(sight.block));
     const RobotGivenTarget robot(joint, sight.block);
     bank.linearise(robot, detection, sensor, bank_->consistency(), linear_);
-    const Matrix2 more_noise = settings().gate.judge(bank.probabilities(), linear_, detection, innovation);
+    const Matrix2 more_noise = gateOf(sight).judge(bank.probabilities(), linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
     bank.update(robot, linear_, bank_->consistency());

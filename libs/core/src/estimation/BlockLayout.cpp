@@ -59,4 +59,11 @@ void BlockLayout::clear() {
     dimension_ = 0;
 }
 
+std::vector<BlockId> BlockLayout::blocks(BlockKind kind) const {
+    std::vector<BlockId> out;
+    for (const BlockPlace& place : places_)
+        if (place.kind == kind) out.push_back(place.id);
+    return out;
+}
+
 }  // namespace slamot

@@ -47,7 +47,7 @@ void DecoupledImm::updateTarget(const RangeBearingSet& seen, const KnownObjects:
     // (R + H_R P_R H_R^t): the robot's covariance is noise.
     const RobotGivenTarget robot(*this, sight.block);
     tracker.linearise(robot, detection, seen.sensors[detection.sensor].pose, bank_->consistency(), linear_);
-    const Matrix2 more_noise = settings().gate.judge(tracker.probabilities(), linear_, detection, innovation);
+    const Matrix2 more_noise = gateOf(sight).judge(tracker.probabilities(), linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (Linearisation& mode : linear_) mode.measurement.R += more_noise;
     // The tracker has no heading along which its covariance could be transported.

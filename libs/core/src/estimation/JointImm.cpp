@@ -83,7 +83,7 @@ void JointImm::addToBatches(const RangeBearingSet& seen, const KnownObjects::Sig
     for (int j = 0; j < bank_->modeCount(); ++j)
         linear_.push_back(linearise(bank_->mode(j), sight.block, detection,
                                     seen.sensors[detection.sensor].pose, bank_->consistency()));
-    const Matrix2 more_noise = settings().gate.judge(mu_, linear_, detection, innovation);
+    const Matrix2 more_noise = gateOf(sight).judge(mu_, linear_, detection, innovation);
     if (innovation.outcome == Outcome::rejected) return;
     for (std::size_t j = 0; j < linear_.size(); ++j) {
         linear_[j].measurement.R += more_noise;

@@ -1,7 +1,6 @@
 #include "slamot/core/filter/JointFilter.h"
 
-#include "slamot/core/estimation/BankedImm.h"
-#include "slamot/core/estimation/DecoupledImm.h"
+#include <Eigen/Eigenvalues>
 
 namespace slamot {
 
@@ -14,27 +13,42 @@ std::shared_ptr<const ModalSettings> settingsFrom(const JointFilterParameters& p
                                                                p.imm.likelihood});
 }
 
-JointFilter::JointFilter(const JointFilterParameters& parameters, const RobotMotionParameters& motion)
-    : parameters_(parameters),
-      settings_(settingsFrom(parameters, motion)),
-      models_(modelsOf(parameters.imm)) {
+namespace {
+
+std::vector<Innovation> innovationsOf(const RangeBearingSet& seen) {
+    std::vector<Innovation> out(seen.detections.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].detection = static_cast<int>(i);
+        out[i].kind = seen.detections[i].kind;
+    }
+    return out;
+}
+
+}  // namespace
+
+JointFilter::JointFilter(const JointFilterParameters& p, const RobotMotionParameters& motion)
+    : parameters_(p),
+      motion_(motion),
+      belief_(settingsFrom(p, motion), p.imm.form, p.imm.max_exact_targets),
+      association_(p.association, p.life.landmarks, p.life.movers, p.consistency),
+      life_(p.life, p.consistency, p.target_velocity_std, p.target_acceleration_std,
+            p.association.gate_probability),
+      models_(modelsOf(p.imm)) {
     if (models_.empty()) models_.push_back(parameters_.target);
 }
 
 void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
     start_ = stamp;
-    auto bank = makeJointBank(parameters_.engine, pose, parameters_.consistency, 1);
-    if (parameters_.imm.form == ImmForm::decoupled)
-        belief_ = std::make_unique<DecoupledImm>(settings_, std::move(bank));
-    else
-        belief_ = std::make_unique<JointImm>(settings_, std::move(bank));
-    if (parameters_.imm.form == ImmForm::scalable) becomeScalable();
+    belief_.start(makeJointBank(parameters_.engine, pose, parameters_.consistency, 1));
     objects_ = {};
+    limits_.clear();
+    life_.clear();
 }
 
 void JointFilter::predict(const OdometryIncrement& odometry) {
     setModels(odometry.t0);
     belief_->predict(odometry, models_);
+    if (life_.busy()) life_.predict(relativeStep(motion_, odometry), models_.front());
     endUnseenTracks(odometry.t1);
 }
 
@@ -48,50 +62,53 @@ void JointFilter::setModels(Stamp stamp) {
     }
 }
 
+void JointFilter::endUnseenTracks(Stamp now) {
+    for (std::size_t i = objects_.tracks().size(); i-- > 0;) {
+        const TrackRecord track = objects_.tracks()[i];
+        if (secondsBetween(track.last_seen, now) <= parameters_.target_max_unseen) continue;
+        if (track.life) life_.lost(*belief_, track, now);
+        belief_.removeTarget(track.block);
+        objects_.removeTrack(track.id);
+    }
+}
+
+// --- one batch
+// ---------------------------------------------------------------------------------------------------
+
 UpdateReport JointFilter::update(const DetectionSet& set) {
     const RangeBearingSet& seen = set.rangeBearing();
-    UpdateReport report;
-    report.innovations.reserve(seen.detections.size());
+    if (!objects_.living() && !life_.busy() && !association_.concerns(seen))
+        return updateByIdentity(seen, set.stamp);
+    return updateByAssociation(limits_.completed(seen), set.stamp);
+}
+
+UpdateReport JointFilter::updateByIdentity(const RangeBearingSet& seen, Stamp now) {
+    UpdateReport report{innovationsOf(seen)};
     known_.clear();
+    ObjectAssociation::byIdentity(objects_, seen, report.innovations, known_);
     measured_.clear();
-    for (std::size_t i = 0; i < seen.detections.size(); ++i)
-        report.innovations.push_back(associate(seen.detections[i], static_cast<int>(i)));
-
+    for (const auto* sights : {&known_.landmarks, &known_.targets})
+        for (const auto& sight : *sights) measured_.push_back(sight.block);
     belief_->attend(seen, measured_);
-    belief_->update(seen, known_, report.innovations);
-
-    for (const Innovation& innovation : report.innovations) markSeen(innovation, set.stamp);
-    for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
-        for (Innovation& innovation : report.innovations)
-            if (innovation.outcome == Outcome::initiated && innovation.kind == kind)
-                initiate(set, innovation);
+    update(seen, known_, report.innovations, now);
+    startNamed(seen, now, report.innovations);
     return report;
 }
 
-// --- life of objects
-// ---------------------------------------------------------------------------------------------
+UpdateReport JointFilter::updateByAssociation(const RangeBearingSet& seen, Stamp now) {
+    UpdateReport report{innovationsOf(seen)};
+    const AssociatedBatch batch = association_.associate(*belief_, objects_, seen, report.innovations);
+    update(batch.used, batch.known, report.innovations, now);
+    startNamed(seen, now, report.innovations);
+    life_.follow(belief_, objects_, batch, now, models_.front(), report.innovations);
+    return report;
+}
 
-Innovation JointFilter::associate(const RangeBearingDetection& detection, int index) {
-    Innovation innovation;
-    innovation.detection = index;
-    innovation.kind = detection.kind;
-    if (!detection.source.valid() || detection.kind == ObjectKind::unknown) return innovation;
-
-    innovation.outcome = Outcome::initiated;
-    if (detection.kind == ObjectKind::mover) {
-        const TrackRecord* track = objects_.trackBySource(detection.source);
-        if (!track) return innovation;
-        innovation.track = track->id;
-        known_.targets.push_back({index, track->block});
-        measured_.push_back(track->block);
-    } else {
-        const LandmarkRecord* landmark = objects_.landmarkBySource(detection.source);
-        if (!landmark) return innovation;
-        innovation.landmark = landmark->id;
-        known_.landmarks.push_back({index, landmark->block});
-        measured_.push_back(landmark->block);
-    }
-    return innovation;
+void JointFilter::update(const RangeBearingSet& used, const KnownObjects& known,
+                         std::vector<Innovation>& innovations, Stamp now) {
+    belief_->update(used, known, innovations);
+    for (const Innovation& innovation : innovations) markSeen(innovation, now);
+    for (const auto& sight : known.targets) holdFloor(sight.block);
 }
 
 void JointFilter::markSeen(const Innovation& innovation, Stamp now) {
@@ -102,57 +119,43 @@ void JointFilter::markSeen(const Innovation& innovation, Stamp now) {
         objects_.markSeen(innovation.landmark, now);
 }
 
-void JointFilter::initiate(const DetectionSet& set, Innovation& innovation) {
-    const RangeBearingSet& seen = set.rangeBearing();
-    const RangeBearingDetection& detection = seen.detections[innovation.detection];
-    const Pose2& sensor = seen.sensors[detection.sensor].pose;
+void JointFilter::holdFloor(BlockId target) {
+    const double floor = parameters_.target_position_floor * parameters_.target_position_floor;
+    const Matrix2 P = belief_->covariance(target, target).topLeftCorner<2, 2>();
+    const Eigen::SelfAdjointEigenSolver<Matrix2> axes(P);
+    if (axes.eigenvalues()(0) >= floor) return;
+    const Vector2 missing = (floor - axes.eigenvalues().array()).max(0);
+    Matrix6 Q = Matrix6::Zero();
+    Q.topLeftCorner<2, 2>() =
+        axes.eigenvectors() * missing.asDiagonal() * axes.eigenvectors().transpose();
+    belief_->widenTarget(target, Q);
+}
+
+void JointFilter::startNamed(const RangeBearingSet& seen, Stamp now, std::vector<Innovation>& innovations) {
+    for (const ObjectKind kind : {ObjectKind::mover, ObjectKind::landmark})
+        for (Innovation& innovation : innovations)
+            if (innovation.outcome == Outcome::initiated && innovation.kind == kind)
+                start(seen, now, innovation);
+}
+
+void JointFilter::start(const RangeBearingSet& seen, Stamp now, Innovation& innovation) {
+    const RangeBearingDetection& detection = seen.detections[static_cast<std::size_t>(innovation.detection)];
+    const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
     const RelativeGaussian point = firstSight(detection, sensor, parameters_.consistency);
-    const bool mover = innovation.kind == ObjectKind::mover;
-    const bool known = mover ? objects_.trackBySource(detection.source) != nullptr
-                             : objects_.landmarkBySource(detection.source) != nullptr;
+    innovation.outcome = Outcome::ignored;
     // Known by now: the same new object twice in one batch, and the first has started it.
-    if (known || (mover && !admitTarget())) {
-        innovation.outcome = Outcome::ignored;
-        return;
-    }
-    if (mover) {
-        const BlockId block = belief_->addTarget(
+    if (innovation.kind == ObjectKind::mover) {
+        if (objects_.trackBySource(detection.source)) return;
+        const auto block = belief_.addTarget(
             moverAt(point, parameters_.target_velocity_std, parameters_.target_acceleration_std));
-        innovation.track = objects_.addTrack(block, detection.source, set.stamp).id;
+        if (!block) return;
+        innovation.track = objects_.addTrack(*block, detection.source, now).id;
     } else {
+        if (objects_.landmarkBySource(detection.source)) return;
         const BlockId block = belief_->addLandmark(point);
-        innovation.landmark = objects_.addLandmark(block, detection.source, set.stamp).id;
+        innovation.landmark = objects_.addLandmark(block, detection.source, now).id;
     }
-}
-
-void JointFilter::endUnseenTracks(Stamp now) {
-    for (std::size_t i = objects_.tracks().size(); i-- > 0;) {
-        const TrackRecord track = objects_.tracks()[i];
-        if (secondsBetween(track.last_seen, now) <= parameters_.target_max_unseen) continue;
-        belief_->removeTarget(track.block);
-        objects_.removeTrack(track.id);
-    }
-    if (objects_.tracks().empty() && parameters_.imm.form == ImmForm::automatic) becomeExact();
-}
-
-// --- forms of the IMM
-// --------------------------------------------------------------------------------------------
-
-bool JointFilter::admitTarget() {
-    const bool room = settings_->chain.modes() == 1 ||
-                      objects_.tracks().size() < static_cast<std::size_t>(parameters_.imm.max_exact_targets);
-    if (!room && parameters_.imm.form == ImmForm::automatic) becomeScalable();
-    return room || parameters_.imm.form != ImmForm::exact;
-}
-
-void JointFilter::becomeScalable() {
-    if (auto* exact = dynamic_cast<JointImm*>(belief_.get()))
-        belief_ = std::make_unique<BankedImm>(settings_, std::move(*exact));
-}
-
-void JointFilter::becomeExact() {
-    if (auto* scalable = dynamic_cast<BankedImm*>(belief_.get()))
-        belief_ = std::make_unique<JointImm>(settings_, scalable->release());
+    innovation.outcome = Outcome::initiated;
 }
 
 // --- estimates
@@ -178,6 +181,10 @@ std::vector<TrackEstimate> JointFilter::tracks() const {
         estimate.source = track.source;
         estimate.mean = belief.mean;
         estimate.covariance = belief.covariance;
+        if (track.life) {
+            estimate.existence = track.life->existence.probability();
+            estimate.moving = track.life->moving;
+        }
         if (!parameters_.imm.modes.empty())
             estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
                                                belief.mode_probabilities.end());
@@ -193,7 +200,9 @@ LandmarkEstimate JointFilter::estimateOf(const LandmarkRecord& landmark) const {
             belief_->covariance(landmark.block, landmark.block),
             landmark.seen,
             landmark.first_seen,
-            landmark.last_seen};
+            landmark.last_seen,
+            landmark.life ? landmark.life->existence.probability() : 1.0,
+            landmark.life ? landmark.life->moving : 0.0};
 }
 
 std::vector<LandmarkEstimate> JointFilter::landmarks() const {

@@ -79,14 +79,16 @@ void describeLife(JointFilterParameters& p, ParameterTable& target) {
         .real("acceleration_std", p.target_acceleration_std, "m/s^2", Interval::nonNegative(),
               "Prior of each acceleration component at first sight.")
         .real("max_unseen", p.target_max_unseen, "s", Interval::positiveOrInfinite(),
-              "A track not seen for longer ends; inf keeps it.");
+              "A track not seen for longer ends; inf keeps it.")
+        .real("position_floor", p.target_position_floor, "m", Interval::nonNegative(),
+              "Standard deviation below which no mover's position falls: an over-confident track is lost.");
 }
 
 }  // namespace
 
 std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string& name,
                                      const std::string& about) {
-    ParameterTable target(name + ".target", "Motion and life of tracks.");
+    ParameterTable target(name + ".target", "Motion and life of movers.");
     describe(p.target, target);
     target.custom({"schedule", "s", schedule_expected,
                    "Changes of the model at known times since the start, for all movers: a filter that is "
@@ -99,8 +101,15 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
                    },
                    [&p] { return scheduleText(p.target_schedule); }});
     describeLife(p, target);
-    return {filterTable(p, name, about), describe(p.engine.active_set, name + ".engine"),
-            outlierTable(p, name), target};
+    ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
+    ParameterTable mixed = describe(p.life, name, landmarks, target);
+    return {filterTable(p, name, about),
+            describe(p.engine.active_set, name + ".engine"),
+            outlierTable(p, name),
+            describe(p.association, name + ".association"),
+            landmarks,
+            target,
+            mixed};
 }
 
 std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name,
@@ -128,9 +137,18 @@ std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::str
                  "Movers in the exact form at most; where form = exact, further ones are ignored.");
     ParameterTable modes(name + ".modes", "Modes of movers and how movers change between them.");
     describe(p.imm, modes);
-    ParameterTable target(name + ".target", "Life of tracks.");
+    ParameterTable target(name + ".target", "Life of movers.");
     describeLife(p, target);
-    return {filter, describe(p.engine.active_set, name + ".engine"), outlierTable(p, name), modes, target};
+    ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
+    ParameterTable mixed = describe(p.life, name, landmarks, target);
+    return {filter,
+            describe(p.engine.active_set, name + ".engine"),
+            outlierTable(p, name),
+            describe(p.association, name + ".association"),
+            landmarks,
+            modes,
+            target,
+            mixed};
 }
 
 }  // namespace slamot

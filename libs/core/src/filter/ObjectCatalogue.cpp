@@ -3,39 +3,60 @@
 #include <algorithm>
 
 namespace slamot {
+namespace {
+
+template <class Records, class Id>
+auto* find(Records& records, Id id) {
+    const auto at = std::find_if(records.begin(), records.end(), [id](const auto& r) { return r.id == id; });
+    return at == records.end() ? nullptr : &*at;
+}
+
+}  // namespace
 
 LandmarkRecord& ObjectCatalogue::addLandmark(BlockId block, SourceId source, Stamp now) {
-    const auto index = landmarks_.size();
-    if (source.valid()) landmark_by_source_[source] = index;
-    landmarks_.push_back({{static_cast<std::int64_t>(index)}, source, block, 1, now, now});
+    const LandmarkId id{next_landmark_++};
+    if (source.valid()) landmark_by_source_[source] = id;
+    landmark_by_block_[block] = id;
+    landmarks_.push_back({id, source, block, 1, now, now, std::nullopt});
     return landmarks_.back();
 }
 
-TrackRecord& ObjectCatalogue::addTrack(BlockId block, SourceId source, Stamp now) {
-    tracks_.push_back({{next_track_++}, source, block, now, now});
+TrackRecord& ObjectCatalogue::addTrack(BlockId block, SourceId source, Stamp now,
+                                       std::optional<TrackId> again) {
+    tracks_.push_back({again ? *again : TrackId{next_track_++}, source, block, now, now, std::nullopt});
     return tracks_.back();
 }
 
+void ObjectCatalogue::removeLandmark(LandmarkId id) {
+    LandmarkRecord* gone = landmark(id);
+    if (gone->life) {
+        --living_;
+        positions_.remove(gone->block);
+    }
+    landmark_by_source_.erase(gone->source);
+    landmark_by_block_.erase(gone->block);
+    landmarks_.erase(landmarks_.begin() + (gone - landmarks_.data()));
+}
+
 void ObjectCatalogue::removeTrack(TrackId id) {
-    tracks_.erase(
-        std::remove_if(tracks_.begin(), tracks_.end(), [id](const TrackRecord& t) { return t.id == id; }),
-        tracks_.end());
+    const TrackRecord* gone = track(id);
+    if (gone->life) --living_;
+    tracks_.erase(tracks_.begin() + (gone - tracks_.data()));
 }
 
 void ObjectCatalogue::markSeen(LandmarkId id, Stamp now) {
-    LandmarkRecord& landmark = landmarks_.at(static_cast<std::size_t>(id.value));
-    landmark.last_seen = now;
-    ++landmark.seen;
+    LandmarkRecord* record = landmark(id);
+    record->last_seen = now;
+    ++record->seen;
 }
 
 void ObjectCatalogue::markSeen(TrackId id, Stamp now) {
-    for (TrackRecord& track : tracks_)
-        if (track.id == id) track.last_seen = now;
+    track(id)->last_seen = now;
 }
 
 LandmarkRecord* ObjectCatalogue::landmarkBySource(SourceId source) {
     const auto found = landmark_by_source_.find(source);
-    return found == landmark_by_source_.end() ? nullptr : &landmarks_[found->second];
+    return found == landmark_by_source_.end() ? nullptr : landmark(found->second);
 }
 
 TrackRecord* ObjectCatalogue::trackBySource(SourceId source) {
@@ -44,9 +65,30 @@ TrackRecord* ObjectCatalogue::trackBySource(SourceId source) {
     return found == tracks_.end() ? nullptr : &*found;
 }
 
+LandmarkRecord* ObjectCatalogue::landmark(LandmarkId id) {
+    const auto at =
+        std::lower_bound(landmarks_.begin(), landmarks_.end(), id.value,
+                         [](const LandmarkRecord& r, std::int64_t value) { return r.id.value < value; });
+    return at == landmarks_.end() || at->id != id ? nullptr : &*at;
+}
+
 const LandmarkRecord* ObjectCatalogue::landmark(LandmarkId id) const {
-    return id.valid() && id.value < static_cast<std::int64_t>(landmarks_.size()) ? &landmarks_[id.value]
-                                                                                 : nullptr;
+    return const_cast<ObjectCatalogue*>(this)->landmark(id);
+}
+
+LandmarkRecord* ObjectCatalogue::landmarkOf(BlockId block) {
+    const auto found = landmark_by_block_.find(block);
+    return found == landmark_by_block_.end() ? nullptr : landmark(found->second);
+}
+
+TrackRecord* ObjectCatalogue::track(TrackId id) {
+    return find(tracks_, id);
+}
+
+TrackRecord* ObjectCatalogue::trackOf(BlockId block) {
+    const auto found =
+        std::find_if(tracks_.begin(), tracks_.end(), [block](const auto& t) { return t.block == block; });
+    return found == tracks_.end() ? nullptr : &*found;
 }
 
 }  // namespace slamot

@@ -40,12 +40,14 @@ struct BatchAssociation {
         double likelihood_ratio = 0;
     };
     std::vector<Pair> of_detection;  ///< by number of detection
-    /// By number of detection: no object explains it, nor one that nothing else was paired with lies within
-    /// the separation gate: it may be of something new.
+    /// By number of detection: it was to be associated, no object explains it, and all objects within whose
+    /// separation gate it lies are paired with others of its sensor: it may be of something new. Never where
+    /// the method of a kind that it may be of is `known`.
     std::vector<bool> may_be_new;
 
     /// JPDA: what a mover is to be updated with in place of its detection, weighed over all that its gate
-    /// holds; by number of detection, as far as paired.
+    /// holds, and not to be gated again (KnownObjects::Sight::weighed); by number of detection, as far as
+    /// paired.
     std::vector<RangeBearingDetection> merged;
     bool soft = false;  ///< whether `merged` holds them
 };

@@ -28,6 +28,7 @@ class BankedImm : public ModalState {
     BlockId addTarget(const RelativeGaussian& target) override;
     void removeTarget(BlockId target) override;
     void widenTarget(BlockId target, const Matrix6& Q) override;
+    void mergeLandmarks(BlockId kept, BlockId gone, double deviation) override;
 
     /// Gives the joint state away; this is empty then.
     std::unique_ptr<JointBank> release() { return std::move(bank_); }
@@ -35,6 +36,8 @@ class BankedImm : public ModalState {
   private:
     TargetGaussian marginal(BlockId target) const;
     std::size_t indexOf(BlockId target) const;
+    /// The banks follow what has moved the joint state.
+    void synchronise();
     void updateByTargets(const RangeBearingSet& seen, const KnownObjects& known,
                          std::vector<Innovation>& innovations);
     /// A mover's bank takes its detection in; the joint state's part joins the batch.

@@ -25,6 +25,8 @@ class BlockLayout {
     int dimension() const { return dimension_; }
     /// In the order of their offsets.
     const std::vector<BlockPlace>& places() const { return places_; }
+    /// Those of a kind, in the same order.
+    std::vector<BlockId> blocks(BlockKind kind) const;
     bool contains(BlockId id) const { return find(id) >= 0; }
     /// Throws std::out_of_range for a block that is not there.
     const BlockPlace& at(BlockId id) const;

@@ -27,6 +27,7 @@ class DenseJointBank : public JointBank {
     void remove(BlockId block) override;
     void mix(const Eigen::Ref<const Eigen::MatrixXd>& mu) override;
     void attend(const Attention&, const ModeWeights&) override {}
+    std::vector<BlockId> landmarksWithinReach() const override { return layout_.blocks(BlockKind::landmark); }
     void activate(const std::vector<BlockId>& landmarks) override;
     void commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) override;
 

@@ -79,6 +79,9 @@ class JointBank {
     /// be seen from here within reach and may put the rest away (a commit, which the weights are for).
     virtual void attend(const Attention& attention, const ModeWeights& weights) = 0;
 
+    /// Landmarks whose means and covariances are at hand.
+    virtual std::vector<BlockId> landmarksWithinReach() const = 0;
+
     /// The part of the state that is put away. A block given to `activate` is within reach again; it changes
     /// no value of any mode.
     virtual void activate(const std::vector<BlockId>& landmarks) = 0;

@@ -29,6 +29,9 @@ struct KnownObjects {
     struct Sight {
         int detection;
         BlockId block;
+        /// Stands for several detections (JPDA), each gated already: the more they disagree, the further off
+        /// it lies, with the more noise, and is no outlier.
+        bool weighed = false;
     };
     std::vector<Sight> landmarks, targets;
 
@@ -65,7 +68,7 @@ class ModalState : public JointView {
     void removeLandmark(BlockId landmark) { bank_->remove(landmark); }
     /// Two landmarks within reach turn out to be one: conditions on their positions being equal up to
     /// `deviation` [m] in each coordinate, and lets go of `gone`.
-    void mergeLandmarks(BlockId kept, BlockId gone, double deviation);
+    virtual void mergeLandmarks(BlockId kept, BlockId gone, double deviation);
 
   protected:
     /// The bank's modes have the probabilities mu.
@@ -74,6 +77,9 @@ class ModalState : public JointView {
         : settings_(std::move(settings)), bank_(std::move(bank)), mu_(mu) {}
 
     const ModalSettings& settings() const { return *settings_; }
+    OutlierGate gateOf(const KnownObjects::Sight& target) const {
+        return target.weighed ? OutlierGate{OutlierTreatment::accept} : settings().gate;
+    }
     /// A new object as every mode of the bank has it.
     std::vector<NewBlock> byMode(const RelativeGaussian& object) const;
 

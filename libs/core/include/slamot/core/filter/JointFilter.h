@@ -1,7 +1,8 @@
 #pragma once
 // The joint filter over robot, movers and landmarks (paper 1, section 2): the EKF of ekf_slamot, the IMM of
-// imm_slamot, and what the other joint estimators are composed of. Here objects are found, started and ended;
-// how movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
+// imm_slamot, and what the other joint estimators are composed of. A step is put together here: which detection
+// is of which object is ObjectAssociation's, what becomes of objects without identity is ObjectLife's, how
+// movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
 #include <memory>
 #include <vector>
 
@@ -10,8 +11,11 @@
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/estimation/JointEngine.h"
-#include "slamot/core/estimation/ModalState.h"
+#include "slamot/core/filter/ModalBelief.h"
+#include "slamot/core/filter/ObjectAssociation.h"
 #include "slamot/core/filter/ObjectCatalogue.h"
+#include "slamot/core/filter/ObjectLife.h"
+#include "slamot/core/filter/SensorLimits.h"
 
 namespace slamot {
 
@@ -30,6 +34,9 @@ struct JointFilterParameters {
     OutlierTreatment outliers = OutlierTreatment::inflate;
     double gate_probability = 0.999;
 
+    AssociationParameters association;
+    ObjectLifeParameters life;
+
     /// Noise that does not depend on the odometry's rate, unless asked for.
     TargetModel target{TargetModelKind::cv, 0.5, 0.1};
     /// "15:ca:1.8" = from 15 s on model ca with noise_std 1.8; several separated by commas.
@@ -37,12 +44,15 @@ struct JointFilterParameters {
     double target_velocity_std = 3.0;      ///< [m/s] at first sight, when nothing is known
     double target_acceleration_std = 2.0;  ///< [m/s^2]
     double target_max_unseen = 5.0;        ///< [s]; a track unseen for longer ends
+    /// [m]; a mover that is seen is never surer of its position than this: its motion is never so well known,
+    /// and an over-confident track is lost.
+    double target_position_floor = 0.01;
 
     /// Where it names modes, movers have these; `target` and its schedule mean nothing then.
     ImmParameters imm;
 };
 
-/// Tables of the section `[name]` and its parts `[name.engine]`, `[name.outliers]`, `[name.target]`.
+/// Tables of the section `[name]` and its parts.
 std::vector<ParameterTable> describe(JointFilterParameters& parameters, const std::string& name,
                                      const std::string& about);
 /// The same for a filter of several modes, with `[name.modes]`.
@@ -61,8 +71,8 @@ class JointFilter {
     void start(Stamp stamp, const PoseGaussian& pose);
     void predict(const OdometryIncrement& odometry);
     /// One batch: all known objects at once, linearised at the predicted state; then new movers, then new
-    /// landmarks are added. Objects are known by the identity the log gives; detections without one are
-    /// ignored and counted.
+    /// landmarks are added. Objects are known by the identity the log gives, else by association; what has no
+    /// identity joins the state when its existence is confirmed.
     UpdateReport update(const DetectionSet& detections);
 
     PoseGaussian robot() const;
@@ -79,20 +89,24 @@ class JointFilter {
   private:
     void setModels(Stamp stamp);
     void endUnseenTracks(Stamp now);
-    /// Finds the detection's object; what has one joins known_.
-    Innovation associate(const RangeBearingDetection& detection, int index);
+    UpdateReport updateByIdentity(const RangeBearingSet& seen, Stamp now);
+    UpdateReport updateByAssociation(const RangeBearingSet& seen, Stamp now);
+    void update(const RangeBearingSet& used, const KnownObjects& known, std::vector<Innovation>& innovations,
+                Stamp now);
     void markSeen(const Innovation& innovation, Stamp now);
-    void initiate(const DetectionSet& set, Innovation& innovation);
-    /// Makes room for one more mover; false where the exact form has no more.
-    bool admitTarget();
-    void becomeScalable();
-    void becomeExact();
+    void holdFloor(BlockId target);
+    /// Objects whose identity is new: movers, then landmarks.
+    void startNamed(const RangeBearingSet& seen, Stamp now, std::vector<Innovation>& innovations);
+    void start(const RangeBearingSet& seen, Stamp now, Innovation& innovation);
     LandmarkEstimate estimateOf(const LandmarkRecord& landmark) const;
 
     JointFilterParameters parameters_;
-    std::shared_ptr<const ModalSettings> settings_;
-    std::unique_ptr<ModalState> belief_;
+    RobotMotionParameters motion_;
+    ModalBelief belief_;
     ObjectCatalogue objects_;
+    SensorLimits limits_;
+    ObjectAssociation association_;
+    ObjectLife life_;
     Stamp start_;
     std::vector<TargetModel> models_;  ///< of the modes, now
     KnownObjects known_;               ///< kept for its capacity

@@ -1,13 +1,24 @@
 #pragma once
-// Which block of the joint state is which landmark or mover.
+// Which block of the joint state is which landmark or mover, where landmarks are, and how sure it is that
+// they are there.
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "slamot/core/association/LandmarkIndex.h"
 #include "slamot/core/data/Identities.h"
 #include "slamot/core/data/Stamp.h"
-#include "slamot/core/estimation/Blocks.h"
+#include "slamot/core/objects/Existence.h"
 
 namespace slamot {
+
+/// The life of an object to which the log gives no identity.
+struct ObjectLifeRecord {
+    ObjectKind seen_as;  ///< kind of its detections
+    Existence existence;
+    double moving;  ///< P(moving)
+    Stamp looked;   ///< when existence was judged last
+};
 
 struct LandmarkRecord {
     LandmarkId id;
@@ -15,6 +26,7 @@ struct LandmarkRecord {
     BlockId block;
     std::int64_t seen;
     Stamp first_seen, last_seen;
+    std::optional<ObjectLifeRecord> life;  ///< none: the log's identity vouches for it
 };
 
 struct TrackRecord {
@@ -22,31 +34,57 @@ struct TrackRecord {
     SourceId source;
     BlockId block;
     Stamp first_seen, last_seen;
+    std::optional<ObjectLifeRecord> life;
 };
 
-/// Landmarks and live tracks in the order they were added; ids count up and are never reused.
+/// Landmarks and live tracks; ids count up and are never given to another object.
 class ObjectCatalogue {
-   public:
+  public:
     LandmarkRecord& addLandmark(BlockId block, SourceId source, Stamp now);
-    TrackRecord& addTrack(BlockId block, SourceId source, Stamp now);
+    /// `again`: the id of a track that was gone and goes on.
+    TrackRecord& addTrack(BlockId block, SourceId source, Stamp now,
+                          std::optional<TrackId> again = std::nullopt);
+    void removeLandmark(LandmarkId id);
     void removeTrack(TrackId id);
     /// Another sight of it.
     void markSeen(LandmarkId id, Stamp now);
     void markSeen(TrackId id, Stamp now);
+    /// A landmark's position has changed.
+    void place(BlockId landmark, const Vector2& position) { positions_.set(landmark, position); }
 
     /// By the log's identity; null for none.
     LandmarkRecord* landmarkBySource(SourceId source);
     TrackRecord* trackBySource(SourceId source);
+    LandmarkRecord* landmark(LandmarkId id);
     const LandmarkRecord* landmark(LandmarkId id) const;
+    LandmarkRecord* landmarkOf(BlockId block);
+    TrackRecord* track(TrackId id);
+    TrackRecord* trackOf(BlockId block);
 
+    /// By id.
     const std::vector<LandmarkRecord>& landmarks() const { return landmarks_; }
     const std::vector<TrackRecord>& tracks() const { return tracks_; }
+    std::vector<TrackRecord>& tracks() { return tracks_; }
+    /// Where landmarks are, as far as `place` was told.
+    const LandmarkIndex& positions() const { return positions_; }
+    /// Whether any object has a life of its own.
+    bool living() const { return living_ > 0; }
 
-   private:
-    std::vector<LandmarkRecord> landmarks_;  ///< at the index that is its id
+    /// Says that an object has a life of its own.
+    template <class Record>
+    void giveLife(Record& record, ObjectLifeRecord life) {
+        living_ += record.life ? 0 : 1;
+        record.life = std::move(life);
+    }
+
+  private:
+    std::vector<LandmarkRecord> landmarks_;  ///< ascending by id
     std::vector<TrackRecord> tracks_;
-    std::unordered_map<SourceId, std::size_t> landmark_by_source_;
-    std::int64_t next_track_ = 0;
+    std::unordered_map<SourceId, LandmarkId> landmark_by_source_;
+    std::unordered_map<BlockId, LandmarkId> landmark_by_block_;
+    LandmarkIndex positions_;
+    std::int64_t next_landmark_ = 0, next_track_ = 0;
+    int living_ = 0;
 };
 
 }  // namespace slamot

@@ -1,6 +1,8 @@
 #pragma once
 // Whether an object is there at all: a hidden Markov chain over visible (detected with P_D when looked at),
-// hidden (occluded for a while: there, but not detected) and absent (clutter, or gone).
+// hidden (occluded for a while: there, but not detected) and absent (clutter, or gone). doc/maths/objects.md.
+#include <string>
+
 #include "slamot/core/config/Parameters.h"
 
 namespace slamot {
@@ -31,7 +33,8 @@ class Existence {
     /// Detected, where that is `likelihood_ratio` times as likely to come from this object, if it is visible,
     /// as from clutter: P_D N(nu; 0, S) / c.
     void detected(double likelihood_ratio);
-    /// Surely in view, and not detected.
+    /// Not detected, where it would have been, if visible, with that probability, which is below 1: P_D times
+    /// the probability that it is in view.
     void missed(double detection_probability);
 
     /// Visible or hidden.
@@ -43,10 +46,13 @@ class Existence {
     bool lost(const LifeParameters& parameters) const;
 
   private:
-    Existence(double visible, double initial) : visible_(visible), initial_(initial) {}
+    Existence() = default;
+    /// Bayes, from how likely what was seen is of a visible, hidden or absent object: `visible` to 1 to 1.
+    void weigh(double visible);
 
-    double visible_, hidden_ = 0;
-    double initial_;  ///< probability at first sight; 1 for what is beyond doubt
+    double visible_ = 1, hidden_ = 0;
+    double initial_ = 1;  ///< probability at first sight
+    bool certain_ = true;
 };
 
 }  // namespace slamot

@@ -2,6 +2,7 @@
 // An object tracked from the robot alone, in the robot's frame and beside the joint state: what has been
 // detected but is not known to be an object yet, and what is an object but not known to be still or moving.
 // Two motions at most, still and moving, with a Markov chain between them: an IMM of two modes.
+// doc/maths/objects.md.
 #include "slamot/core/data/Odometry.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 #include "slamot/core/estimation/RelativeGaussian.h"
@@ -15,7 +16,7 @@ struct MotionChange {
     double moving_probability = 0.3;  ///< at first sight
     double start_every = 60;          ///< [s] that a still object stays still, on average
     double stop_every = 10;           ///< [s] that a mover keeps moving, on average
-    double velocity_std = 1.0;        ///< [m/s] of each component, of what begins to move
+    double velocity_std = 1.0;        ///< [m/s] of each component, of what begins to move or may be moving
 };
 
 /// A step of the robot, for what is known in its frame: T_before_after and the covariance of its error
@@ -26,11 +27,17 @@ struct RelativeStep {
 };
 RelativeStep relativeStep(const RobotMotionParameters& motion, const OdometryIncrement& odometry);
 
+/// The same object in the robot's frame after the robot moved.
+RelativeGaussian afterMove(const RelativeGaussian& object, const PoseGaussian& move);
+
 class RelativeTrack {
   public:
-    /// `moving_probability` 0: still, and stays so; 1: moving, and stays so; else what `change` says of it.
-    RelativeTrack(const RelativeGaussian& point, double moving_probability, double velocity_std,
-                  double acceleration_std);
+    /// Known to be still, and stays so.
+    static RelativeTrack still(const RelativeGaussian& point);
+    /// Known to be moving, and stays so; priors of velocity and acceleration as moverAt's.
+    static RelativeTrack moving(const RelativeGaussian& point, double velocity_std, double acceleration_std);
+    /// Either, as `change` says of it, which may leave no doubt (moving_probability 0 or 1).
+    static RelativeTrack unknown(const RelativeGaussian& point, const MotionChange& change);
 
     /// `model` is of what moves.
     void predict(const RelativeStep& step, const TargetModel& model, const MotionChange& change);
@@ -51,11 +58,16 @@ class RelativeTrack {
     const RelativeGaussian& asMover() const { return moving_; }
 
   private:
+    RelativeTrack(double moving_probability, const RelativeGaussian& still, const RelativeGaussian& moving)
+        : moving_probability_(moving_probability), still_(still), moving_(moving) {}
+
+    bool mayBeStill() const { return moving_probability_ < 1; }
+    bool mayMove() const { return moving_probability_ > 0; }
     void mix(double dt, const MotionChange& change);
 
-    double moving_probability_;
-    RelativeGaussian still_;   ///< 2
-    RelativeGaussian moving_;  ///< 6
+    double moving_probability_;  ///< 0 and 1 last; between them it never gets there
+    RelativeGaussian still_;     ///< 2; left alone while it cannot be still
+    RelativeGaussian moving_;    ///< 6; left alone while it cannot be moving
 };
 
 }  // namespace slamot

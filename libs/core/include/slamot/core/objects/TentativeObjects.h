@@ -1,9 +1,11 @@
 #pragma once
 // What has been detected and may be an object: kept beside the joint state until its existence is confirmed,
-// so that clutter neither costs nor disturbs the estimate.
+// so that clutter neither costs nor disturbs the estimate. doc/maths/objects.md.
+#include <optional>
 #include <vector>
 
 #include "slamot/core/association/ChiSquare.h"
+#include "slamot/core/association/DetectionModel.h"
 #include "slamot/core/objects/Existence.h"
 #include "slamot/core/objects/RelativeTrack.h"
 
@@ -13,13 +15,13 @@ struct TentativeObject {
     ObjectKind kind;  ///< of its detections; unknown: P(moving) decides what it becomes
     Existence existence;
     RelativeTrack track;
-    int seen = 1;
-    Stamp first_seen;
+    int seen = 1;  ///< detections
+    Stamp first_seen, last_seen;
 };
 
 /// One that is confirmed, by a detection of the present batch.
 struct ConfirmedObject {
-    int detection;  ///< number in the batch
+    int detection;  ///< number in the batch: its last one there
     bool moving;
     TentativeObject object;
 };
@@ -31,6 +33,9 @@ struct TentativeParameters {
     double decide_probability = 0.9;
     double gate_probability = 0.999;
     double velocity_std = 3, acceleration_std = 2;  ///< of a mover at first sight
+    /// [s]; one not detected for longer is let go wherever it is: those that left the view get no misses, and
+    /// would gather without end.
+    double max_unseen = 5;
 };
 
 class TentativeObjects {
@@ -43,16 +48,36 @@ class TentativeObjects {
 
     void predict(const RelativeStep& step, const TargetModel& model);
 
-    /// Takes in what no object of the estimate explains: `unexplained`, numbers of detections, ascending; those
-    /// flagged in `may_start` (by number of detection) start an object when no tentative one explains them.
-    /// Assigns by globalNearestNeighbour. The confirmed leave, in the order of their detections.
+    /// Takes in what no object of the estimate explains: `unexplained`, numbers of detections, ascending;
+    /// those flagged in `may_start` (by number of detection) start an object when no tentative one explains
+    /// them. Sensor by sensor, each by globalNearestNeighbour; a detection of unknown kind may be of any
+    /// object, else kinds agree. The confirmed leave when it is known whether they move, in the order of
+    /// their detections. Sensors have a known max_range.
     std::vector<ConfirmedObject> update(const RangeBearingSet& seen, Stamp now,
                                         const std::vector<int>& unexplained,
                                         const std::vector<bool>& may_start, Consistency consistency);
 
   private:
+    struct Batch;
+    /// One sensor's part of a batch: detections of tentative objects, misses, first sights.
+    void look(int sensor, const Batch& batch, std::vector<int>& detection_of);
+    /// How likely objects are detected, and how dense the detections are that come from none of them.
+    DetectionModel detectionModel(const Batch& batch, const std::vector<int>& detections) const;
+    /// Pairs within the gate; detections by their place in the list.
+    AssociationProblem candidates(const Batch& batch, const std::vector<int>& detections,
+                                  const std::vector<ExpectedDetection>& expected);
+    /// False where no new objects are expected.
+    bool start(int detection, const Batch& batch);
+    std::vector<ConfirmedObject> takeConfirmed(const std::vector<int>& detection_of);
+    const LifeParameters& lifeOf(ObjectKind kind) const {
+        return kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
+    }
+    /// Whether it moves, where that is decided.
+    std::optional<bool> moves(const TentativeObject& object) const;
+
     TentativeParameters parameters_;
     PairGates gates_;
+    Stamp last_update_;
     std::vector<TentativeObject> objects_;
 };
 

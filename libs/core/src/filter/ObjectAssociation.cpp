@@ -1,0 +1,151 @@
+#include "slamot/core/filter/ObjectAssociation.h"
+
+#include <algorithm>
+
+#include "slamot/core/association/DetectionModel.h"
+#include "slamot/core/objects/FieldOfView.h"
+
+namespace slamot {
+namespace {
+
+/// [m] by which landmarks may lie off where they are looked for, beyond what the robot's covariance says.
+constexpr double view_margin = 1.0;
+
+/// P_D of an object that may be hidden; never so small that a detection could not be its own.
+double detectionProbability(const std::optional<ObjectLifeRecord>& life, const LifeParameters& parameters) {
+    if (!life) return parameters.detection_probability;
+    const double visible = life->existence.visibility() / life->existence.probability();
+    return parameters.detection_probability * std::max(visible, 0.1);
+}
+
+}  // namespace
+
+ObjectAssociation::ObjectAssociation(const AssociationParameters& parameters, const LifeParameters& landmarks,
+                                     const LifeParameters& movers, Consistency consistency)
+    : parameters_(parameters),
+      landmark_life_(landmarks),
+      mover_life_(movers),
+      associator_(parameters, consistency) {}
+
+void ObjectAssociation::byIdentity(ObjectCatalogue& objects, const RangeBearingSet& seen,
+                                   std::vector<Innovation>& innovations, KnownObjects& known) {
+    for (Innovation& innovation : innovations) {
+        const RangeBearingDetection& detection =
+            seen.detections[static_cast<std::size_t>(innovation.detection)];
+        if (!detection.source.valid() || detection.kind == ObjectKind::unknown) continue;
+        innovation.outcome = Outcome::initiated;
+        if (detection.kind == ObjectKind::mover) {
+            if (const TrackRecord* track = objects.trackBySource(detection.source)) {
+                innovation.track = track->id;
+                known.targets.push_back({innovation.detection, track->block});
+            }
+        } else if (const LandmarkRecord* landmark = objects.landmarkBySource(detection.source)) {
+            innovation.landmark = landmark->id;
+            known.landmarks.push_back({innovation.detection, landmark->block});
+        }
+    }
+}
+
+bool ObjectAssociation::isAssociated(const RangeBearingDetection& detection) const {
+    if (detection.source.valid() && detection.kind != ObjectKind::unknown) return false;
+    const bool landmarks = parameters_.landmarks != LandmarkAssociation::known,
+               movers = parameters_.movers != MoverAssociation::known;
+    return detection.kind == ObjectKind::landmark ? landmarks
+           : detection.kind == ObjectKind::mover  ? movers
+                                                  : landmarks && movers;
+}
+
+bool ObjectAssociation::concerns(const RangeBearingSet& seen) const {
+    return std::any_of(seen.detections.begin(), seen.detections.end(),
+                       [this](const RangeBearingDetection& d) { return isAssociated(d); });
+}
+
+std::vector<BlockId> ObjectAssociation::landmarksInView(const ModalState& belief,
+                                                        const ObjectCatalogue& objects,
+                                                        const RangeBearingSet& seen) const {
+    const PoseGaussian robot{Pose2::fromVector(belief.mean(robot_block)),
+                             belief.covariance(robot_block, robot_block)};
+    std::vector<BlockId> out;
+    for (const RangeBearingSensor& sensor : seen.sensors) {
+        if (!reports(sensor, ObjectKind::landmark) || !(sensor.max_range > 0)) continue;
+        const std::vector<BlockId> in_view =
+            objects.positions().inView(robot, sensor, parameters_.gate_probability, view_margin);
+        out.insert(out.end(), in_view.begin(), in_view.end());
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+std::vector<double> ObjectAssociation::clutterDensities(const RangeBearingSet& seen) const {
+    std::vector<double> out;
+    for (const RangeBearingDetection& detection : seen.detections) {
+        const LifeParameters& life = detection.kind == ObjectKind::mover ? mover_life_ : landmark_life_;
+        out.push_back(clutterDensity(life.clutter_per_scan + life.new_per_scan,
+                                     seen.sensors[static_cast<std::size_t>(detection.sensor)]));
+    }
+    return out;
+}
+
+AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue& objects,
+                                             const RangeBearingSet& seen,
+                                             std::vector<Innovation>& innovations) {
+    AssociatedBatch batch;
+    batch.seen = batch.used = seen;
+    byIdentity(objects, seen, innovations, batch.known);
+
+    batch.landmarks = landmarksInView(belief, objects, seen);
+    std::vector<BlockId> may_be_measured = batch.landmarks;
+    for (const auto* sights : {&batch.known.landmarks, &batch.known.targets})
+        for (const auto& sight : *sights) may_be_measured.push_back(sight.block);
+    belief.attend(seen, may_be_measured);
+
+    // What an identity names is seen already.
+    const auto named = [](const std::vector<KnownObjects::Sight>& sights, BlockId block) {
+        return std::any_of(sights.begin(), sights.end(), [&](const auto& s) { return s.block == block; });
+    };
+    std::vector<VisibleObject> visible;
+    for (const BlockId block : batch.landmarks)
+        if (!named(batch.known.landmarks, block))
+            visible.push_back({block, ObjectKind::landmark,
+                               detectionProbability(objects.landmarkOf(block)->life, landmark_life_)});
+    for (const TrackRecord& track : objects.tracks())
+        if (!named(batch.known.targets, track.block))
+            visible.push_back(
+                {track.block, ObjectKind::mover, detectionProbability(track.life, mover_life_)});
+    std::vector<int> nameless;
+    for (std::size_t d = 0; d < seen.detections.size(); ++d)
+        if (isAssociated(seen.detections[d])) nameless.push_back(static_cast<int>(d));
+
+    BatchAssociation found =
+        associator_.associate(belief, visible, seen, nameless, clutterDensities(seen));
+    pair(objects, visible, batch, found, innovations);
+    for (const int d : nameless)
+        if (found.of_detection[static_cast<std::size_t>(d)].object < 0) batch.unexplained.push_back(d);
+    batch.may_be_new = std::move(found.may_be_new);
+    if (found.soft) batch.used.detections = std::move(found.merged);
+    return batch;
+}
+
+void ObjectAssociation::pair(ObjectCatalogue& objects, const std::vector<VisibleObject>& visible,
+                             AssociatedBatch& batch, const BatchAssociation& found,
+                             std::vector<Innovation>& innovations) const {
+    batch.likelihood_ratio.assign(batch.seen.detections.size(), 0);
+    for (Innovation& innovation : innovations) {
+        const auto d = static_cast<std::size_t>(innovation.detection);
+        const BatchAssociation::Pair& pair = found.of_detection[d];
+        if (pair.object < 0) continue;
+        const VisibleObject& object = visible[static_cast<std::size_t>(pair.object)];
+        batch.likelihood_ratio[d] = pair.likelihood_ratio;
+        innovation.kind = object.kind;
+        if (object.kind == ObjectKind::mover) {
+            innovation.track = objects.trackOf(object.block)->id;
+            batch.known.targets.push_back({innovation.detection, object.block});
+        } else {
+            innovation.landmark = objects.landmarkOf(object.block)->id;
+            batch.known.landmarks.push_back({innovation.detection, object.block});
+        }
+    }
+}
+
+}  // namespace slamot

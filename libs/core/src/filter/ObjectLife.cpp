@@ -1,0 +1,295 @@
+#include "slamot/core/filter/ObjectLife.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "slamot/core/objects/FieldOfView.h"
+
+namespace slamot {
+namespace {
+
+/// Landmarks further apart than this [m] are never one, however uncertain.
+constexpr double farthest_duplicate = 5;
+/// What two landmarks that are one may lie apart [m] when they are merged.
+constexpr double merged_apart = 0.01;
+
+const RangeBearingDetection& detectionOf(const AssociatedBatch& batch, int d) {
+    return batch.seen.detections[static_cast<std::size_t>(d)];
+}
+
+const Pose2& sensorOf(const AssociatedBatch& batch, const RangeBearingDetection& detection) {
+    return batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+}
+
+bool surelySeenByAny(const GatheredView& view, BlockId block, ObjectKind kind, const RangeBearingSet& seen,
+                     Consistency consistency) {
+    return std::any_of(seen.sensors.begin(), seen.sensors.end(), [&](const RangeBearingSensor& sensor) {
+        return reports(sensor, kind) && sensor.max_range > 0 &&
+               surelyInView(sensor, expectedSight(view, block, sensor.pose, consistency).detection);
+    });
+}
+
+TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double velocity_std,
+                                        double acceleration_std, double gate_probability) {
+    return {p.landmarks,      p.movers,     p.change,        p.decide_probability,
+            gate_probability, velocity_std, acceleration_std};
+}
+
+}  // namespace
+
+ParameterTable describe(ObjectLifeParameters& p, const std::string& name, ParameterTable& landmarks,
+                        ParameterTable& movers) {
+    describe(p.landmarks, "landmarks", landmarks);
+    landmarks.real("merge_probability", p.merge_probability, "-", Interval::openProbability(),
+                   "Of two landmarks being one, at which they are merged.");
+    describe(p.movers, "movers", movers);
+    movers
+        .choice("birth", p.birth, {{"two_point", TrackBirth::two_point}, {"one_point", TrackBirth::one_point}},
+                "two_point: a new mover has the velocity that the detections before its confirmation show; "
+                "one_point: the prior, whatever they show.")
+        .real("reidentify_within", p.reidentify_within, "s", Interval::nonNegative(),
+              "A mover that comes back within that time after its track ended has its number again.")
+        .real("reidentify_probability", p.reidentify_probability, "-", Interval::openProbability(),
+              "Part of the movers that come back which lie inside the gate of the ended track's prediction.");
+    ParameterTable mixed(name + ".mixed", "Detections of which the sensor does not tell landmark from mover.");
+    mixed
+        .real("moving_probability", p.change.moving_probability, "-", Interval::openProbability(),
+              "P(moving) of an object at first sight.")
+        .real("start_every", p.change.start_every, "s", Interval::positiveOrInfinite(),
+              "Time that a still object stays still, on average.")
+        .real("stop_every", p.change.stop_every, "s", Interval::positiveOrInfinite(),
+              "Time that a mover keeps moving, on average.")
+        .real("velocity_std", p.change.velocity_std, "m/s", Interval::positive(),
+              "Of each velocity component of what begins to move.")
+        .real("decide_probability", p.decide_probability, "-", Interval::openProbability(),
+              "P(moving) above which an object becomes a mover; below 1 - this it becomes a landmark.");
+    return mixed;
+}
+
+ObjectLife::ObjectLife(const ObjectLifeParameters& parameters, Consistency consistency, double velocity_std,
+                       double acceleration_std, double gate_probability)
+    : parameters_(parameters),
+      consistency_(consistency),
+      velocity_std_(velocity_std),
+      acceleration_std_(acceleration_std),
+      pair_gate_(chiSquareQuantile(gate_probability, 2)),
+      tentative_(tentativeParameters(parameters, velocity_std, acceleration_std, gate_probability)),
+      kinds_(parameters.change),
+      duplicates_(parameters.landmarks.detection_probability, parameters.merge_probability),
+      lost_(parameters.reidentify_probability, parameters.reidentify_within) {}
+
+void ObjectLife::clear() {
+    tentative_.clear();
+    kinds_.clear();
+    duplicates_ = DuplicateWatch(parameters_.landmarks.detection_probability, parameters_.merge_probability);
+    lost_.clear();
+}
+
+void ObjectLife::predict(const RelativeStep& step, const TargetModel& model) {
+    tentative_.predict(step, model);
+    kinds_.predict(step, model);
+}
+
+void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                        Stamp now, const TargetModel& model, std::vector<Innovation>& innovations) {
+    Sights sights;
+    for (const auto* known : {&batch.known.landmarks, &batch.known.targets})
+        for (const auto& sight : *known) sights[sight.block] = sight.detection;
+
+    judge(belief, objects, batch, sights, now);
+    changeKinds(belief, objects, batch, sights, now);
+    merge(belief, objects);
+    removeLost(belief, objects, now);
+
+    for (const int d : batch.unexplained)
+        innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
+    for (const ConfirmedObject& confirmed :
+         tentative_.update(batch.seen, now, batch.unexplained, batch.may_be_new, consistency_))
+        admit(belief, objects, confirmed, now, model,
+              innovations[static_cast<std::size_t>(confirmed.detection)]);
+
+    lost_.forgetOld(now);
+    for (const BlockId block : belief->bank().landmarksWithinReach())
+        objects.place(block, belief->mean(block).head<2>());
+}
+
+// --- existence
+// ----------------------------------------------------------------------------------------------
+
+void ObjectLife::judge(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                       const Sights& sights, Stamp now) {
+    std::vector<BlockId> blocks = batch.landmarks;
+    for (const TrackRecord& track : objects.tracks()) blocks.push_back(track.block);
+    const GatheredView view(*belief, blocks);
+    for (const BlockId block : batch.landmarks)
+        if (LandmarkRecord* landmark = objects.landmarkOf(block); landmark->life)
+            look(view, *landmark->life, block, ObjectKind::landmark, batch, sights, now);
+    for (TrackRecord& track : objects.tracks())
+        if (track.life) look(view, *track.life, track.block, ObjectKind::mover, batch, sights, now);
+    compare(view, objects, batch, sights);
+}
+
+void ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId block, ObjectKind kind,
+                      const AssociatedBatch& batch, const Sights& sights, Stamp now) const {
+    const LifeParameters& parameters =
+        kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
+    life.existence.pass(secondsBetween(life.looked, now), parameters);
+    life.looked = now;
+    if (const auto sight = sights.find(block); sight != sights.end())
+        life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
+    else if (surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))
+        life.existence.missed(parameters.detection_probability);
+}
+
+void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, Stamp now) {
+    std::vector<LandmarkRecord> landmarks;
+    for (const LandmarkRecord& landmark : objects.landmarks())
+        if (landmark.life && landmark.life->looked == now &&
+            landmark.life->existence.lost(parameters_.landmarks))
+            landmarks.push_back(landmark);
+    for (const LandmarkRecord& landmark : landmarks) removeLandmark(belief, objects, landmark);
+    const std::vector<TrackRecord> tracks = objects.tracks();
+    for (const TrackRecord& track : tracks) {
+        if (!track.life || !track.life->existence.lost(parameters_.movers)) continue;
+        lost(*belief, track, now);
+        removeTrack(belief, objects, track);
+    }
+}
+
+void ObjectLife::lost(const ModalState& belief, const TrackRecord& track, Stamp now) {
+    const TargetBelief last = belief.target(track.block);
+    lost_.add({track.id, last.mean, last.covariance, now});
+    kinds_.forget(track.block);
+}
+
+void ObjectLife::removeLandmark(ModalBelief& belief, ObjectCatalogue& objects,
+                                const LandmarkRecord& landmark) {
+    duplicates_.forget(landmark.block);
+    kinds_.forget(landmark.block);
+    belief->removeLandmark(landmark.block);
+    objects.removeLandmark(landmark.id);
+}
+
+void ObjectLife::removeTrack(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track) {
+    kinds_.forget(track.block);
+    belief.removeTarget(track.block);
+    objects.removeTrack(track.id);
+}
+
+// --- landmarks that are one
+// ---------------------------------------------------------------------------------
+
+void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                         const Sights& sights) {
+    const auto living = [&](BlockId block) { return objects.landmarkOf(block)->life.has_value(); };
+    for (std::size_t i = 0; i < batch.landmarks.size(); ++i) {
+        const BlockId a = batch.landmarks[i];
+        for (std::size_t j = i + 1; j < batch.landmarks.size(); ++j) {
+            const BlockId b = batch.landmarks[j];
+            const Vector2 apart = view.mean(a) - view.mean(b);
+            if (apart.norm() > farthest_duplicate || !(living(a) || living(b))) continue;
+            const Matrix2 P = view.covariance(a, a) + view.covariance(b, b) - view.covariance(a, b) -
+                              view.covariance(b, a);
+            if (apart.dot(P.llt().solve(apart)) > pair_gate_) {
+                duplicates_.forget(a, b);
+                continue;
+            }
+            const auto in_view = [&](BlockId block) {
+                return sights.count(block) > 0 ||
+                       surelySeenByAny(view, block, ObjectKind::landmark, batch.seen, consistency_);
+            };
+            if (in_view(a) && in_view(b))
+                duplicates_.look(a, b, sights.count(a) > 0, sights.count(b) > 0);
+        }
+    }
+}
+
+void ObjectLife::merge(ModalBelief& belief, ObjectCatalogue& objects) {
+    for (const auto& [kept, gone] : duplicates_.merged()) {
+        LandmarkRecord* first = objects.landmarkOf(kept);
+        const LandmarkRecord* second = objects.landmarkOf(gone);
+        if (!first || !second || !second->life) continue;  // merged with a third, or named by the log
+        first->seen += second->seen;
+        first->last_seen = std::max(first->last_seen, second->last_seen);
+        const LandmarkId second_id = second->id;
+        duplicates_.forget(gone);
+        kinds_.forget(gone);
+        belief->mergeLandmarks(kept, gone, merged_apart);
+        objects.removeLandmark(second_id);
+    }
+}
+
+// --- objects of unknown kind
+// --------------------------------------------------------------------------------
+
+void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                             const Sights& sights, Stamp now) {
+    for (const auto& [block, d] : sights) {
+        LandmarkRecord* landmark = objects.landmarkOf(block);
+        TrackRecord* track = objects.trackOf(block);
+        std::optional<ObjectLifeRecord>& life = landmark ? landmark->life : track->life;
+        if (!life || life->seen_as != ObjectKind::unknown) continue;
+        const RangeBearingDetection& detection = detectionOf(batch, d);
+        const Pose2& sensor = sensorOf(batch, detection);
+        life->moving = kinds_.look(block, life->moving, detection, sensor, consistency_);
+        if (landmark && life->moving < parameters_.decide_probability) continue;
+        if (track && life->moving > 1 - parameters_.decide_probability) continue;
+
+        // Its position begins anew with this detection: what came before was of another kind.
+        RelativeGaussian point = firstSight(detection, sensor, consistency_);
+        const ObjectLifeRecord going_on = *life;
+        const std::int64_t seen = landmark ? landmark->seen : 1;
+        if (landmark) {
+            RelativeGaussian mover = kinds_.asMover(block);
+            mover.mean.head<2>() = point.mean;
+            mover.covariance.topRows<2>().setZero();
+            mover.covariance.leftCols<2>().setZero();
+            mover.covariance.topLeftCorner<2, 2>() = point.covariance;
+            removeLandmark(belief, objects, *landmark);
+            if (const auto target = belief.addTarget(mover))
+                objects.giveLife(objects.addTrack(*target, {}, now), going_on);
+        } else {
+            removeTrack(belief, objects, *track);
+            LandmarkRecord& stopped = objects.addLandmark(belief->addLandmark(point), {}, now);
+            stopped.seen = seen;
+            objects.place(stopped.block, belief->mean(stopped.block).head<2>());
+            objects.giveLife(stopped, going_on);
+        }
+    }
+}
+
+// --- new objects
+// --------------------------------------------------------------------------------------------
+
+void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed,
+                       Stamp now, const TargetModel& model, Innovation& innovation) {
+    const TentativeObject& object = confirmed.object;
+    const ObjectLifeRecord life{object.kind, object.existence, object.track.movingProbability(), now};
+    if (!confirmed.moving) {
+        LandmarkRecord& landmark =
+            objects.addLandmark(belief->addLandmark(object.track.asLandmark()), {}, now);
+        landmark.seen = object.seen;
+        landmark.first_seen = object.first_seen;
+        objects.place(landmark.block, belief->mean(landmark.block).head<2>());
+        objects.giveLife(landmark, life);
+        innovation.kind = ObjectKind::landmark;
+        innovation.landmark = landmark.id;
+    } else {
+        RelativeGaussian mover = object.track.asMover();
+        if (parameters_.birth == TrackBirth::one_point)
+            mover = moverAt({mover.mean.head<2>(), mover.covariance.topLeftCorner<2, 2>()}, velocity_std_,
+                            acceleration_std_);
+        const std::optional<BlockId> block = belief.addTarget(mover);
+        if (!block) return;
+        const TargetBelief born = belief->target(*block);
+        TrackRecord& track = objects.addTrack(
+            *block, {}, now, lost_.continuedBy(born.mean, born.covariance, now, model));
+        track.first_seen = object.first_seen;
+        objects.giveLife(track, life);
+        innovation.kind = ObjectKind::mover;
+        innovation.track = track.id;
+    }
+    innovation.outcome = Outcome::initiated;
+}
+
+}  // namespace slamot
