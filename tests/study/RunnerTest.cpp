@@ -213,7 +213,8 @@ TEST_F(RunnerTest, AFailingRunIsARowWithItsReason) {
     const Plan laid = plan(
         "[study]\nreplicates = 2\n[scenario.s]\nfile = field.ini\n"
         "[config.good]\nfile = ekf.ini\n"
-        "[config.blind]\nfile = ekf.ini\nidentities.landmarks = hidden\n");
+        "[config.blind]\nfile = ekf.ini\nidentities.landmarks = hidden\n"
+        "ekf_slamot.association.landmarks = known\n");
     const std::vector<Row> rows = run(laid);
     ASSERT_EQ(rows.size(), 4u);
     for (const Row& row : rows) {
@@ -232,7 +233,8 @@ TEST_F(RunnerTest, ReasonsNameNeitherTheWorldNorTheLogsFolder) {
     std::filesystem::resize_file(log, std::filesystem::file_size(log) * 2 / 3);
     const Plan laid = plan(
         "[study]\n[log.mine]\nfiles = cut.rawlog\nconfig = ekf.ini\n"
-        "[config.seeing]\n[config.blind]\nidentities.landmarks = hidden\n");
+        "[config.seeing]\n[config.blind]\nidentities.landmarks = hidden\n"
+        "ekf_slamot.association.landmarks = known\n");
     const std::vector<Row> rows = run(laid);
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_THAT(rows[0].reason, testing::StartsWith("cut.rawlog: "));
