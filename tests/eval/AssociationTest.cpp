@@ -123,6 +123,84 @@ TEST(Association, LeavesOutStampsWhoseNumbersDoNotFit) {
     EXPECT_EQ(m->without_truth, 1);
 }
 
+TEST(Association, TentativeDetectionsAreNeitherRightNorWrong) {
+    Log log;
+    log.landmark(5).last().outcome = Outcome::tentative;
+    log.clutter().last().outcome = Outcome::tentative;
+    log.mover(7).last().outcome = Outcome::tentative;
+    // An estimator may say what it is kept for: no part of the estimate yet.
+    log.landmark(6).toLandmark(0, Outcome::tentative);
+    log.landmark(5).toLandmark(0, Outcome::initiated);
+    log.landmark(5);  // ignored: recall pays
+    const auto m = associationMetrics(log.run, log.truth);
+    EXPECT_EQ(m->used, 6);
+    EXPECT_EQ(m->landmarks.tentative, 2);
+    EXPECT_EQ(m->movers.tentative, 1);
+    EXPECT_EQ(m->all.tentative, 3);
+    EXPECT_EQ(m->tentative_clutter, 1);
+    EXPECT_EQ(m->landmarks.detections, 2);
+    EXPECT_EQ(m->landmarks.found, 1);
+    EXPECT_EQ(m->landmarks.associated, 1);
+    EXPECT_EQ(m->landmarks.right, 1);
+    EXPECT_EQ(m->movers.detections, 0);
+    EXPECT_EQ(m->all.clutter, 0);
+}
+
+/// A detection that the log has at t = 0 under `number` of `count`, in landmark `landmark`.
+InnovationRow numbered(int number, int count, std::int64_t landmark) {
+    // The number among those the run took in, which tells nothing here.
+    InnovationRow row = innovation(0, "s", ObjectKind::landmark, Outcome::updated, 1);
+    row.innovation.detection = 0;
+    row.innovation.landmark = {landmark};
+    row.log = LogNumber{number, count};
+    return row;
+}
+
+Truth threeLandmarks() {
+    Truth truth;
+    for (int i = 0; i < 3; ++i) truth.associations.push_back({at(0), i, "landmark", SourceId{10 + i}});
+    return truth;
+}
+
+TEST(Association, NumbersInTheLogFindWhatIsLeftOfIt) {
+    // The log's second detection was withheld, and two false ones added.
+    RunRecord run;
+    run.innovations = {numbered(-1, 3, 0), numbered(2, 3, 2), numbered(-1, 3, 7), numbered(0, 3, 0)};
+    const auto m = associationMetrics(run, threeLandmarks());
+    EXPECT_EQ(m->used, 4);
+    EXPECT_EQ(m->without_truth, 0);
+    EXPECT_EQ(m->unnumbered, 0);
+    EXPECT_EQ(m->all.detections, 2);
+    EXPECT_EQ(m->all.found, 2);
+    EXPECT_EQ(m->all.associated, 4);
+    EXPECT_EQ(m->all.right, 2);
+    EXPECT_EQ(m->all.clutter, 2);
+}
+
+TEST(Association, AddedClutterCountsWhereTruthKnowsTheRestOfTheStamp) {
+    RunRecord run;
+    run.innovations = {numbered(0, 4, 0), numbered(3, 4, 1), numbered(-1, 4, 2)};
+    const auto part = associationMetrics(run, threeLandmarks());  // which says nothing of number 3
+    EXPECT_EQ(part->used, 1);
+    EXPECT_EQ(part->without_truth, 2);
+    EXPECT_EQ(part->all.clutter, 0);
+
+    run.innovations = {numbered(-1, 0, 2)};  // the sensor saw nothing but clutter
+    EXPECT_EQ(associationMetrics(run, threeLandmarks()).whyAbsent(),
+              "the log had fewer detections than truth has at every stamp, so that their numbers do not fit");
+    Truth elsewhere = threeLandmarks();
+    for (TrueAssociation& association : elsewhere.associations) association.stamp = at(1);
+    EXPECT_EQ(associationMetrics(run, elsewhere)->all.clutter, 1);
+}
+
+TEST(Association, ATruthOfMoreDetectionsThanTheLogHasFitsNot) {
+    RunRecord run;
+    run.innovations = {numbered(0, 2, 0), numbered(1, 2, 1), numbered(-1, 2, 1)};
+    const auto m = associationMetrics(run, threeLandmarks());
+    EXPECT_EQ(m.whyAbsent(),
+              "the log had fewer detections than truth has at every stamp, so that their numbers do not fit");
+}
+
 TEST(Association, SaysWhatIsMissing) {
     Log log;
     EXPECT_EQ(associationMetrics(log.run, log.truth).whyAbsent(), "truth has no associations");
@@ -132,9 +210,8 @@ TEST(Association, SaysWhatIsMissing) {
     EXPECT_EQ(associationMetrics(log.run, other).whyAbsent(),
               "truth has no association of any detection of the run");
     log.truth.associations.push_back({at(0), 1, "clutter", SourceId{}});
-    EXPECT_EQ(
-        associationMetrics(log.run, log.truth).whyAbsent(),
-        "the run took in fewer detections than truth has at every stamp, so that their numbers do not fit");
+    EXPECT_EQ(associationMetrics(log.run, log.truth).whyAbsent(),
+              "the log had fewer detections than truth has at every stamp, so that their numbers do not fit");
     log.run.innovations.clear();
     EXPECT_EQ(associationMetrics(log.run, log.truth).whyAbsent(), "the run has no innovations");
 }

@@ -39,6 +39,18 @@ TEST(Nis, GroupsBySensorAndKindByHand) {
     EXPECT_TRUE(std::isnan((*nis)[2].mean_per_degree));
 }
 
+TEST(Nis, TentativeDetectionsAreCountedButNotMeasured) {
+    // Against something beside the estimate, 27 says nothing of the estimate.
+    const auto nis = nisBySensor({innovation(1, "cam", ObjectKind::unknown, Outcome::updated, 3),
+                                  innovation(2, "cam", ObjectKind::unknown, Outcome::tentative, 27)},
+                                 0.95);
+    ASSERT_TRUE(nis);
+    ASSERT_EQ(nis->size(), 1u);
+    EXPECT_EQ((*nis)[0].outcomes.at(Outcome::tentative), 1);
+    EXPECT_EQ((*nis)[0].count, 1);
+    EXPECT_DOUBLE_EQ((*nis)[0].mean_per_degree, 1.5);
+}
+
 TEST(Nis, AbsentWithoutInnovations) {
     EXPECT_EQ(nisBySensor({}, 0.95).whyAbsent(), "the run has no innovations");
 }

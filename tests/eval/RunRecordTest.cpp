@@ -71,6 +71,47 @@ TEST(ReadRun, TakesColumnsByName) {
     EXPECT_EQ(run.innovations[1].innovation.landmark, LandmarkId{3});
 }
 
+TEST(ReadRun, WhatIsMovingExistsAndIsTentativeIsReadWhereItIsTold) {
+    const TemporaryFolder folder;
+    folder.write("trajectory.csv", std::string(trajectory_head) + "1.5,0,0,0,0,0,0,0,0,0\n");
+    std::string covariance_names, zeros;
+    for (int r = 0; r < 6; ++r)
+        for (int c = r; c < 6; ++c) {
+            covariance_names += ",c_" + std::to_string(r) + "_" + std::to_string(c);
+            zeros += ",0";
+        }
+    const std::string innovation_head =
+        "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection";
+    const std::string innovation = "1.5,cam,unknown,-1,-1,tentative,nan,nan,nan,nan,nan,nan,1";
+    // As written before these columns came.
+    folder.write("tracks.csv", "t,track,x,y,vx,vy,ax,ay" + covariance_names +
+                                   ",existence,source_id\n1.5,4,1,2,3,4,5,6" + zeros + ",0.75,-1\n");
+    folder.write("landmarks.csv",
+                 "id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,source_id\n3,7,8,1,0.5,2,12,1.5,1.5,-1\n");
+    folder.write("innovations.csv", innovation_head + "\n" + innovation + "\n");
+    const RunRecord old = readRun(folder.path());
+    EXPECT_EQ(old.tracks.at(at(1.5)).at(0).moving, 1);
+    EXPECT_EQ(old.landmarks.at(0).existence, 1);
+    EXPECT_EQ(old.landmarks.at(0).moving, 0);
+    EXPECT_EQ(old.innovations.at(0).innovation.outcome, Outcome::tentative);
+    EXPECT_FALSE(old.innovations[0].log);
+
+    folder.write("tracks.csv", "t,track,x,y,vx,vy,ax,ay" + covariance_names +
+                                   ",existence,moving,source_id\n1.5,4,1,2,3,4,5,6" + zeros +
+                                   ",0.75,0.625,-1\n");
+    folder.write("landmarks.csv",
+                 "id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,existence,moving,source_id\n"
+                 "3,7,8,1,0.5,2,12,1.5,1.5,0.875,0.125,-1\n");
+    folder.write("innovations.csv", innovation_head + ",log_number,log_count\n" + innovation + ",-1,6\n");
+    const RunRecord run = readRun(folder.path());
+    EXPECT_EQ(run.tracks.at(at(1.5)).at(0).moving, 0.625);
+    EXPECT_EQ(run.landmarks.at(0).existence, 0.875);
+    EXPECT_EQ(run.landmarks.at(0).moving, 0.125);
+    ASSERT_TRUE(run.innovations.at(0).log);
+    EXPECT_EQ(run.innovations[0].log->number, -1);
+    EXPECT_EQ(run.innovations[0].log->count, 6);
+}
+
 TEST(ReadRun, OnlyTheTrajectoryMustBeThere) {
     const TemporaryFolder folder;
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }), HasSubstr("trajectory.csv"));
@@ -100,7 +141,7 @@ TEST(ReadRun, BadRowsAreNamed) {
                  "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis\n"
                  "1,cam,mover,-1,4,lost,0,0,1,0,1,0\n");
     EXPECT_THAT(messageOf([&] { readRun(folder.path()); }),
-                HasSubstr("one of updated, inflated, rejected, initiated, ignored"));
+                HasSubstr("one of updated, inflated, rejected, initiated, tentative, ignored"));
 }
 
 TEST(ReadTum, ReadsYawAndExactStamps) {

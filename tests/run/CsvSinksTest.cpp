@@ -42,6 +42,7 @@ Step fullStep(double t, int salt) {
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j) track.covariance(i, j) = odd(salt + i * j);
     track.existence = 0.1 + 0.2;
+    track.moving = 0.1 + 0.7;
     track.mode_probabilities = {1.0 / 3.0, 2.0 / 3.0};
     step.estimate.tracks = {track};
 
@@ -49,7 +50,7 @@ Step fullStep(double t, int salt) {
     set.sensors.resize(2);
     set.sensors[0].label = "landmarks";
     set.sensors[1].label = "movers";
-    set.detections.resize(2);
+    set.detections.resize(3);
     set.detections[1].sensor = 1;
     step.detections = {at(t), set};
     Innovation used;
@@ -65,9 +66,16 @@ Step fullStep(double t, int salt) {
     born.kind = ObjectKind::mover;
     born.track = {salt};
     born.outcome = Outcome::initiated;
-    step.report.innovations = {used, born};
+    Innovation kept;
+    kept.detection = 2;
+    kept.outcome = Outcome::tentative;
+    step.report.innovations = {used, born, kept};
+    step.log_numbers = {4, 0, -1};
+    step.log_count = 6;
     LandmarkEstimate touched;
     touched.id = {3};
+    touched.existence = 0.75;
+    touched.moving = 0.25;
     step.touched = {touched};
     return step;
 }
@@ -79,6 +87,8 @@ run::RunEnd fullEnd() {
     landmark.source = {42};
     landmark.mean = {odd(1), odd(2)};
     landmark.covariance << odd(3), odd(4), odd(4), odd(5);
+    landmark.existence = 0.1 + 0.2;
+    landmark.moving = 0.1 + 0.7;
     landmark.seen = 12;
     landmark.first_seen = at(0.1);
     landmark.last_seen = at(1.7);
@@ -100,11 +110,15 @@ TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
     EXPECT_EQ(firstLineOf(path("tracks.csv")),
               "t,track,x,y,vx,vy,ax,ay,c_0_0,c_0_1,c_0_2,c_0_3,c_0_4,c_0_5,c_1_1,c_1_2,c_1_3,c_1_4,c_1_5,c_2_"
               "2,c_2_3,"
-              "c_2_4,c_2_5,c_3_3,c_3_4,c_3_5,c_4_4,c_4_5,c_5_5,existence,p_cv,p_ct,source_id");
-    EXPECT_EQ(firstLineOf(path("landmarks.csv")), "id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,source_id");
-    EXPECT_EQ(firstLineOf(path("landmarks_history.csv")), "t,id,x,y,c_xx,c_xy,c_yy,source_id");
-    EXPECT_EQ(firstLineOf(path("innovations.csv")),
-              "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection");
+              "c_2_4,c_2_5,c_3_3,c_3_4,c_3_5,c_4_4,c_4_5,c_5_5,existence,p_cv,p_ct,moving,source_id");
+    EXPECT_EQ(firstLineOf(path("landmarks.csv")),
+              "id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,existence,moving,source_id");
+    EXPECT_EQ(firstLineOf(path("landmarks_history.csv")),
+              "t,id,x,y,c_xx,c_xy,c_yy,existence,moving,source_id");
+    EXPECT_EQ(
+        firstLineOf(path("innovations.csv")),
+        "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection,log_number,log_"
+        "count");
     EXPECT_EQ(firstLineOf(path("steps.csv")), "t,landmarks,tracks,ms_predict,ms_detect,ms_update");
 }
 
@@ -121,6 +135,14 @@ TEST_F(CsvSinksTest, ARowReadsAsWritten) {
     // A quarter turn: qz = qw = sin 45 deg, the last digit being that of libm's sine and cosine.
     EXPECT_EQ(firstLineOf(path("trajectory.tum")),
               "1577836801.2500000 1.5 -2 0 0 0 0.7071067811865475 0.7071067811865476");
+}
+
+TEST_F(CsvSinksTest, TheHistoryTellsExistenceAndMovement) {
+    run::LandmarksHistorySink sink(folder);
+    sink.step(fullStep(1.25, 1));
+    sink.end({});
+    const std::string text = textOf(path("landmarks_history.csv"));
+    EXPECT_EQ(text.substr(text.find('\n') + 1), "1577836801.2500000,3,0,0,0,0,0,0.75,0.25,-1\n");
 }
 
 void expectEqual(const eval::RunRecord& read, const eval::RunRecord& kept) {
@@ -140,6 +162,7 @@ void expectEqual(const eval::RunRecord& read, const eval::RunRecord& kept) {
             EXPECT_EQ(others[i].mean, tracks[i].mean);
             EXPECT_EQ(others[i].covariance, tracks[i].covariance);
             EXPECT_EQ(others[i].existence, tracks[i].existence);
+            EXPECT_EQ(others[i].moving, tracks[i].moving);
             EXPECT_EQ(others[i].mode_probabilities, tracks[i].mode_probabilities);
         }
     }
@@ -149,6 +172,8 @@ void expectEqual(const eval::RunRecord& read, const eval::RunRecord& kept) {
         EXPECT_EQ(read.landmarks[i].source, kept.landmarks[i].source);
         EXPECT_EQ(read.landmarks[i].mean, kept.landmarks[i].mean);
         EXPECT_EQ(read.landmarks[i].covariance, kept.landmarks[i].covariance);
+        EXPECT_EQ(read.landmarks[i].existence, kept.landmarks[i].existence);
+        EXPECT_EQ(read.landmarks[i].moving, kept.landmarks[i].moving);
         EXPECT_EQ(read.landmarks[i].seen, kept.landmarks[i].seen);
         EXPECT_EQ(read.landmarks[i].first_seen, kept.landmarks[i].first_seen);
         EXPECT_EQ(read.landmarks[i].last_seen, kept.landmarks[i].last_seen);
@@ -159,6 +184,10 @@ void expectEqual(const eval::RunRecord& read, const eval::RunRecord& kept) {
         EXPECT_EQ(read.innovations[i].stamp, kept.innovations[i].stamp);
         EXPECT_EQ(read.innovations[i].sensor, kept.innovations[i].sensor);
         const Innovation &a = read.innovations[i].innovation, &b = kept.innovations[i].innovation;
+        ASSERT_TRUE(read.innovations[i].log && kept.innovations[i].log);
+        EXPECT_EQ(read.innovations[i].log->number, kept.innovations[i].log->number);
+        EXPECT_EQ(read.innovations[i].log->count, kept.innovations[i].log->count);
+        EXPECT_EQ(a.detection, b.detection);
         EXPECT_EQ(a.kind, b.kind);
         EXPECT_EQ(a.landmark, b.landmark);
         EXPECT_EQ(a.track, b.track);
@@ -183,7 +212,7 @@ TEST_F(CsvSinksTest, AnOutputFolderReadsBackAsTheRecordBitForBit) {
     for (int i = 0; i < 40; ++i)
         for (run::Sink* sink : sinks) sink->step(i % 3 ? emptyStep(0.1 * i) : fullStep(0.1 * i, i));
     for (run::Sink* sink : sinks) sink->end(fullEnd());
-    ASSERT_EQ(recorder.record().innovations.size(), 28u);  // two for each i of 0, 3, ..., 39
+    ASSERT_EQ(recorder.record().innovations.size(), 42u);  // three for each i of 0, 3, ..., 39
     expectEqual(eval::readRun(folder), recorder.record());
 }
 
@@ -196,7 +225,7 @@ TEST_F(CsvSinksTest, ASensorsNameCannotBreakTheTable) {
     sink.end({});
     trajectory.end({});
     const eval::RunRecord read = eval::readRun(folder);
-    ASSERT_EQ(read.innovations.size(), 2u);
+    ASSERT_EQ(read.innovations.size(), 3u);
     EXPECT_EQ(read.innovations[0].sensor, "front, left and \"right\"");
     EXPECT_EQ(read.innovations[1].sensor, "movers");
 }
@@ -267,7 +296,10 @@ TEST(EstimateHashTest, EqualForEqualRunsAndDifferentForAnyOther) {
     EXPECT_NE(reference, changed([&](auto& steps, auto&) { bump(steps[1].estimate.tracks[0].existence); }));
     EXPECT_NE(reference,
               changed([&](auto& steps, auto&) { bump(steps[1].estimate.tracks[0].mode_probabilities[1]); }));
+    EXPECT_NE(reference, changed([&](auto& steps, auto&) { bump(steps[1].estimate.tracks[0].moving); }));
     EXPECT_NE(reference, changed([&](auto&, auto& end) { bump(end.landmarks[0].mean(1)); }));
+    EXPECT_NE(reference, changed([&](auto&, auto& end) { bump(end.landmarks[0].existence); }));
+    EXPECT_NE(reference, changed([&](auto&, auto& end) { bump(end.landmarks[0].moving); }));
     EXPECT_NE(reference, changed([&](auto& steps, auto&) { steps.pop_back(); }));
     EXPECT_NE(reference, changed([&](auto&, auto& end) { end.landmarks.clear(); }));
 }

@@ -69,6 +69,8 @@ TEST_F(PipelineTest, ObservationsOfOneStampBecomeOneSetWithItsSensors) {
     ASSERT_EQ(set.sensors.size(), 2u);
     EXPECT_EQ(set.sensors[0].label, "landmarks");
     EXPECT_EQ(set.sensors[1].label, "movers");
+    EXPECT_EQ(set.sensors[0].kind, ObjectKind::landmark);
+    EXPECT_EQ(set.sensors[1].kind, ObjectKind::mover);
     ASSERT_EQ(set.detections.size(), 3u);
     EXPECT_EQ(set.detections[0].sensor, 0);
     EXPECT_EQ(set.detections[2].sensor, 1);
@@ -190,7 +192,10 @@ TEST_F(PipelineTest, RolesComeFromTheLabelsOrTheConfig) {
     ASSERT_EQ(spy->sets.size(), 5u);
     const ObjectKind expected[] = {ObjectKind::landmark, ObjectKind::landmark, ObjectKind::mover,
                                    ObjectKind::unknown, ObjectKind::unknown};
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(detectionsOf(spy->sets[i])[0].kind, expected[i]) << i;
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(detectionsOf(spy->sets[i])[0].kind, expected[i]) << i;
+        EXPECT_EQ(spy->sets[i].rangeBearing().sensors[0].kind, expected[i]) << i;
+    }
     // An identity means nothing before it is known whether it is a landmark's or a mover's.
     const std::int64_t ids[] = {1, 2, 3, -1, -1};
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(detectionsOf(spy->sets[i])[0].source.value, ids[i]) << i;

@@ -32,6 +32,9 @@ TEST(RunConfigTest, AnEmptyConfigIsTheDefaults) {
     EXPECT_EQ(run.config.odometry, "auto");
     EXPECT_EQ(run.config.max_odometry_gap, 1.0);
     EXPECT_EQ(run.config.start.kind, run::StartPose::zero);
+    EXPECT_EQ(run.config.clutter.per_scan, 0);
+    EXPECT_EQ(run.config.clutter.detection_probability, 1);
+    EXPECT_EQ(run.config.clutter.seed, std::nullopt);
 }
 
 TEST(RunConfigTest, EverySectionIsRead) {
@@ -43,6 +46,7 @@ TEST(RunConfigTest, EverySectionIsRead) {
         "[sensors]\nfront camera = mixed\nlandmarks = ignore\n"
         "[noise]\nrange_std = 0.5\n"
         "[noise.front camera]\nrange_std_per_m = 0.05\nbearing_std_deg = 180\n"
+        "[clutter]\nper_scan = 5\ndetection_probability = 0.9\nseed = 18446744073709551615\n"
         "[start]\npose = 1, -2, 90\nposition_std = 0.1\nheading_std_deg = 90\n"
         "[output]\ninterval = 0.5\nscene = false\n"
         "[motion]\nmodel = arc\n[dead_reckoning]\nnoise_scale = 2\n");
@@ -61,6 +65,9 @@ TEST(RunConfigTest, EverySectionIsRead) {
     EXPECT_EQ(c.noise.bearing_std, std::nullopt);
     EXPECT_EQ(c.noise_by_label.at("front camera").range_std_per_m, 0.05);
     EXPECT_EQ(c.noise_by_label.at("front camera").bearing_std, pi);
+    EXPECT_EQ(c.clutter.per_scan, 5);
+    EXPECT_EQ(c.clutter.detection_probability, 0.9);
+    EXPECT_EQ(c.clutter.seed, UINT64_MAX);
     EXPECT_EQ(c.start.kind, run::StartPose::given);
     EXPECT_TRUE(near(c.start.pose.vector(), Vector3(1, -2, pi / 2), 1e-15));
     EXPECT_EQ(c.start.heading_std, pi / 2);
@@ -92,6 +99,10 @@ TEST(RunConfigTest, MistakesNameFileLineKeyAndWhatWasExpected) {
          {"my.ini:2", "camera", "'landmark'", "landmarks | movers | mixed"}},
         {"[noise]\nrange_std = 0\n", {"my.ini:2", "above 0", "auto"}},
         {"[noise.movers]\nrange_sdt = 1\n", {"my.ini:2", "[noise.movers]", "did you mean 'range_std'?"}},
+        {"[clutter]\nper_scan = -1\n", {"my.ini:2", "per_scan", "[0, 400]"}},
+        {"[clutter]\nper_scan = 500\n", {"my.ini:2", "[0, 400]"}},
+        {"[clutter]\ndetection_probability = 1.5\n", {"my.ini:2", "[0, 1]"}},
+        {"[clutter]\nseed = -1\n", {"my.ini:2", "whole number", "auto"}},
         {"[start]\npose = 1,2\n", {"my.ini:2", "zero | truth | x,y,theta_deg"}},
         {"[start]\npose = 1,2,inf\n", {"my.ini:2", "x,y,theta_deg"}},
         {"[output]\nscene = maybe\n", {"my.ini:2", "true | false"}},

@@ -115,6 +115,52 @@ TEST_F(RunJobTest, TheFolderReadsBackAsTheResultsRecord) {
     EXPECT_EQ(read.innovations.size(), 120u);
 }
 
+TEST_F(RunJobTest, AssociationsAreFoundByTheLogsNumbersThroughClutter) {
+    writeLog(path("a.rawlog"), drive());
+    Truth truth;
+    for (int k = 0; k < 40; ++k) {
+        truth.robot.push_back({at(0.2 * k), {0.2 * k, 0, 0}});
+        const Stamp stamp = at(0.2 * k + 0.07);
+        truth.associations.push_back({stamp, 0, "landmark", SourceId{1}});
+        truth.associations.push_back({stamp, 1, "landmark", SourceId{2}});
+        truth.associations.push_back({stamp, 2, "mover", SourceId{1}});
+    }
+    run::RunRequest request;
+    request.config = Config::fromText(
+        "[clutter]\nper_scan = 1.5\ndetection_probability = 0.7\n"
+        "[ekf_slamot.association]\nlandmarks = known\nmovers = known\n",
+        "my.ini");
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.truth = &truth;
+    request.truth_folder = "a.truth";
+    const auto result = run::runLog(request, registry());
+    const auto& counts = result.summary["counts"];
+    const auto added = counts["clutter_added"].get<int>(),
+               withheld = counts["detections_withheld"].get<int>();
+    EXPECT_GT(added, 60);     // of 120 on average: 80 observations
+    EXPECT_GT(withheld, 15);  // of 36 on average
+    EXPECT_EQ(counts["detections"], 120 - withheld + added);
+    EXPECT_EQ(counts["detections_ignored"], added) << "they have no identity";
+    EXPECT_EQ(counts["detections_tentative"], 0);
+
+    const auto read = eval::evaluate(eval::readRun(path("out")), truth, {});
+    for (const eval::Metrics& metrics : {*result.metrics, read}) {
+        ASSERT_TRUE(metrics.association);
+        EXPECT_EQ(metrics.association->used, counts["detections"]);
+        EXPECT_EQ(metrics.association->without_truth, 0);
+        EXPECT_EQ(metrics.association->unnumbered, 0);
+        EXPECT_EQ(metrics.association->all.detections, 120 - withheld);
+        // A log without noise: nothing lies outside of a gate, so identities find all of it.
+        EXPECT_EQ(metrics.association->all.recall, 1);
+        EXPECT_EQ(metrics.association->all.precision, 1);
+    }
+    // Other draws, other numbers of detections.
+    request.config.set("run", "seed", "2");
+    request.out_folder = path("out2");
+    EXPECT_NE(run::runLog(request, registry()).estimate_hash, result.estimate_hash);
+}
+
 TEST_F(RunJobTest, ALogInTheOutputFolderIsNotDestroyed) {
     writeLog(path("a.rawlog"), drive());
     runLog("a.rawlog", "");
@@ -160,7 +206,9 @@ TEST_F(RunJobTest, LogsWithNothingToUseAreErrorsThatSayWhatWasFound) {
 
 TEST_F(RunJobTest, ARunThatIgnoredEveryDetectionIsAnErrorWithoutFinishedOutputs) {
     writeLog(path("a.rawlog"), drive());
-    const std::string hidden = "[identities]\nlandmarks = hidden\nmovers = hidden\n";
+    const std::string hidden =
+        "[identities]\nlandmarks = hidden\nmovers = hidden\n"
+        "[ekf_slamot.association]\nlandmarks = known\nmovers = known\n";
     const auto error = messageOf<LogError>([&] { runLog("a.rawlog", hidden); });
     EXPECT_THAT(error, HasSubstr("any of the 120 detections"));  // 40 x (2 landmarks + 1 mover)
     EXPECT_THAT(error, HasSubstr("identities"));

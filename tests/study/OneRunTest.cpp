@@ -209,6 +209,7 @@ TEST_F(OneRunTest, ARunThatFailsWhenMadeAgainIsANote) {
     const Plan plan = this->plan(
         "[study]\nseed = 4\nreplicates = 1\n[scenario.field]\nfile = field.ini\n"
         "[config.blind]\nfile = ekf.ini\nidentities.landmarks = hidden\n"
+        "ekf_slamot.association.landmarks = known\n"
         "[figure.f]\nkind = one_run\nsource = field\nconfig = blind\nshow = map\n");
     const std::vector<Row> rows = run(plan);
     ASSERT_EQ(rows.size(), 1u);

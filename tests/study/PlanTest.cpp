@@ -106,6 +106,43 @@ TEST_F(PlanTest, VariantsRunWhereTheySayAndWithTheSourcesConfig) {
         HasSubstr("small.ini:4: [config.c] has no 'file' and source a no 'config'"));
 }
 
+TEST_F(PlanTest, LogsAreRunAsOftenAsTheySay) {
+    for (const char* name : {"a.rawlog", "b.rawlog"}) folder.write(name, name);
+    const std::string begin = "[study]\nshort_replicates = 2\n[log.l]\nfiles = *.rawlog\n",
+                      config = "[config.c]\nfile = ekf.ini\n";
+    const Plan once = plan(begin + config), thrice = plan(begin + "replicates = 3\n" + config);
+    EXPECT_THAT(worldNames(once), ElementsAre("l-1", "l-2"));
+    EXPECT_THAT(worldNames(thrice), ElementsAre("l-1", "l-2", "l-3", "l-4", "l-5", "l-6"));
+    std::set<std::uint64_t> seeds;
+    for (std::size_t w = 0; w < 6; ++w) {
+        EXPECT_THAT(thrice.kinds[thrice.worlds[w].kind].log_file, HasSubstr(w % 2 ? "b.rawlog" : "a.rawlog"));
+        seeds.insert(thrice.worlds[w].world_seed);
+    }
+    EXPECT_EQ(seeds.size(), 6u);
+    for (std::size_t w = 0; w < 2; ++w)
+        EXPECT_EQ(once.keyOf(once.worlds[w], once.runsOf(once.worlds[w])[0]),
+                  thrice.keyOf(thrice.worlds[w], thrice.runsOf(thrice.worlds[w])[0]));
+    PlanRequest request;
+    request.short_form = true;
+    EXPECT_EQ(plan(begin + "replicates = 3\n" + config, request).worlds.size(), 4u);
+    EXPECT_EQ(plan(begin + config, request).worlds.size(), 2u);
+    request.short_form = false;
+    request.replicates = 5;
+    EXPECT_EQ(plan(begin + "replicates = 3\n" + config, request).worlds.size(), 10u);
+    EXPECT_EQ(plan(begin + config, request).worlds.size(), 2u) << "run once, says the file";
+    EXPECT_THAT(mistake(begin + "replicates = 0\n" + config), HasSubstr("small.ini:5: replicates = '0'"));
+}
+
+TEST_F(PlanTest, TheSeedOfClutterIsTheStudysToSet) {
+    EXPECT_THAT(mistake(usual() + "[grid]\nclutter.seed = 1 | 2\n"), HasSubstr("clutter.seed is derived"));
+    // One in a config's file changes no run, so neither its key.
+    const auto keys = [&](const std::string& seed) {
+        folder.write("cluttered.ini", "[clutter]\nper_scan = 2\n" + seed);
+        return keysOf(plan("[study]\n[scenario.s]\nfile = field.ini\n[config.c]\nfile = cluttered.ini\n"));
+    };
+    EXPECT_EQ(keys("seed = 5\n"), keys("seed = 6\n"));
+}
+
 TEST_F(PlanTest, AStudyFileMayBeginWithAByteOrderMark) {
     EXPECT_EQ(keysOf(plan("\xEF\xBB\xBF" + usual())), keysOf(plan(usual())));
 }

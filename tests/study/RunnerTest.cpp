@@ -177,11 +177,44 @@ TEST_F(RunnerTest, RecordedLogsAreWorldsToo) {
     EXPECT_EQ(rows[2].replicate, 2);
 }
 
+TEST_F(RunnerTest, ClutterIsAnotherInEveryReplicateOfALogAndTheSameForEveryConfig) {
+    writeWorld(plan(usual("1")), 0, "mine.rawlog");
+    const std::string study =
+        "[study]\nseed = 4\n[log.mine]\nfiles = mine.rawlog\nconfig = ekf.ini\nreplicates = 3\n"
+        "[config.classic]\nekf_slamot.consistency = classic\n[config.invariant]\n";
+    const Plan laid = plan(study + "[grid]\nclutter.per_scan = 2 | 6\n");
+    ASSERT_EQ(laid.worlds.size(), 3u);
+    const std::vector<Row> rows = run(laid);
+    ASSERT_EQ(rows.size(), 12u);
+    EXPECT_EQ(keysOf(laid).size(), 12u);
+    std::map<std::pair<int, std::string>, std::set<double>> added;  // by replicate and per_scan
+    for (const Row& row : rows) {
+        EXPECT_EQ(row.status, "complete") << row.reason;
+        added[{row.replicate, row.config_point.at(0).second}].insert(row.metrics.at("counts.clutter_added"));
+    }
+    std::set<double> at_two, at_six;
+    for (const auto& [which, counts] : added) {
+        EXPECT_EQ(counts.size(), 1u) << "both configs of a comparison get the same clutter";
+        (which.second == "2" ? at_two : at_six).insert(*counts.begin());
+    }
+    // Equal sums would not mean equal draws, but these differ.
+    EXPECT_EQ(at_two.size(), 3u);
+    EXPECT_EQ(at_six.size(), 3u);
+    EXPECT_GT(*at_six.begin(), *at_two.rbegin());
+    EXPECT_EQ(identities(run(laid)), identities(rows));
+
+    // Without clutter, replicates of a log are the same run under other keys.
+    const std::vector<Row> plain = run(plan(study));
+    ASSERT_EQ(plain.size(), 6u);
+    for (const Row& row : plain) EXPECT_EQ(row.metrics.at("counts.clutter_added"), 0);
+}
+
 TEST_F(RunnerTest, AFailingRunIsARowWithItsReason) {
     const Plan laid = plan(
         "[study]\nreplicates = 2\n[scenario.s]\nfile = field.ini\n"
         "[config.good]\nfile = ekf.ini\n"
-        "[config.blind]\nfile = ekf.ini\nidentities.landmarks = hidden\n");
+        "[config.blind]\nfile = ekf.ini\nidentities.landmarks = hidden\n"
+        "ekf_slamot.association.landmarks = known\n");
     const std::vector<Row> rows = run(laid);
     ASSERT_EQ(rows.size(), 4u);
     for (const Row& row : rows) {
@@ -200,7 +233,8 @@ TEST_F(RunnerTest, ReasonsNameNeitherTheWorldNorTheLogsFolder) {
     std::filesystem::resize_file(log, std::filesystem::file_size(log) * 2 / 3);
     const Plan laid = plan(
         "[study]\n[log.mine]\nfiles = cut.rawlog\nconfig = ekf.ini\n"
-        "[config.seeing]\n[config.blind]\nidentities.landmarks = hidden\n");
+        "[config.seeing]\n[config.blind]\nidentities.landmarks = hidden\n"
+        "ekf_slamot.association.landmarks = known\n");
     const std::vector<Row> rows = run(laid);
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_THAT(rows[0].reason, testing::StartsWith("cut.rawlog: "));

@@ -15,10 +15,11 @@ using Source = std::pair<bool, SourceId>;  // is a mover, id
 /// An estimated landmark or track, likewise.
 using Object = std::pair<bool, std::int64_t>;  // is a track, id
 
-/// One detection: where it came from (nothing: clutter) and where it went (nothing: nowhere).
+/// One detection: where it came from (nothing: clutter) and where it went (nothing: nowhere, or not decided).
 struct Sorted {
     std::optional<Source> source;
     std::optional<Object> object;
+    bool tentative = false;
 };
 
 std::optional<Object> objectOf(const Innovation& innovation) {
@@ -37,36 +38,53 @@ std::map<Stamp, std::map<int, const TrueAssociation*>> byStamp(
     return result;
 }
 
+using Rows = std::vector<InnovationRow>::const_iterator;
+
+/// What truth says of the detections of one stamp: one per row, null where it says nothing. Counts what is
+/// not known.
+std::vector<const TrueAssociation*> originsAt(Rows first, Rows last,
+                                              const std::map<int, const TrueAssociation*>& at_stamp,
+                                              AssociationMetrics& counts) {
+    static const TrueAssociation added_clutter{{}, -1, "clutter", {}};
+    const auto rows = static_cast<int>(last - first);
+    std::vector<const TrueAssociation*> origins(static_cast<std::size_t>(rows), nullptr);
+    // Files that do not tell a detection's number in the log tell it among those that the run took in: where
+    // these are fewer, the two countings differ.
+    const int in_log = first->log ? first->log->count : rows;
+    if (!at_stamp.empty() && at_stamp.rbegin()->first >= in_log) {
+        counts.unnumbered += rows;
+        return origins;
+    }
+    for (int i = 0; i < rows; ++i) {
+        const InnovationRow& row = first[i];
+        const int detection = row.innovation.detection;
+        const int number = row.log ? row.log->number : detection >= 0 ? detection : i;
+        if (const auto found = at_stamp.find(number); found != at_stamp.end())
+            origins[static_cast<std::size_t>(i)] = found->second;
+        else if (row.log && number < 0)
+            origins[static_cast<std::size_t>(i)] = &added_clutter;
+    }
+    const auto unknown = std::count(origins.begin(), origins.end(), nullptr);
+    // Where truth knows but a part of the log's detections, all of the added clutter would outweigh them.
+    if (unknown > 0)
+        for (const TrueAssociation*& origin : origins)
+            if (origin == &added_clutter) origin = nullptr;
+    counts.without_truth += std::count(origins.begin(), origins.end(), nullptr);
+    return origins;
+}
+
 /// The detections of the run that truth knows, in order of time.
 std::vector<Sorted> sortDetections(const RunRecord& run, const Truth& truth, AssociationMetrics& counts) {
-    const auto true_sources = byStamp(truth.associations);
+    auto true_sources = byStamp(truth.associations);
     std::vector<Sorted> detections;
     for (auto first = run.innovations.begin(); first != run.innovations.end();) {
         const auto last = std::find_if(first, run.innovations.end(),
                                        [&](const InnovationRow& row) { return row.stamp != first->stamp; });
-        const auto rows = static_cast<int>(last - first);
-        const auto at_stamp = true_sources.find(first->stamp);
-        // Truth counts the detections of the log, the run those it took in: where the run has fewer, the two
-        // countings differ.
-        const bool fits = at_stamp != true_sources.end() && at_stamp->second.rbegin()->first < rows;
-        for (int row = 0; first != last; ++first, ++row) {
-            if (at_stamp == true_sources.end()) {
-                ++counts.without_truth;
-                continue;
-            }
-            if (!fits) {
-                ++counts.unnumbered;
-                continue;
-            }
-            const Innovation& innovation = first->innovation;
-            const auto found = at_stamp->second.find(innovation.detection >= 0 ? innovation.detection : row);
-            if (found == at_stamp->second.end()) {
-                ++counts.without_truth;
-                continue;
-            }
-            const TrueAssociation& origin = *found->second;
-            Sorted sorted{std::nullopt, objectOf(innovation)};
-            if (origin.kind != "clutter") sorted.source = Source{origin.kind == "mover", origin.id};
+        for (const TrueAssociation* origin : originsAt(first, last, true_sources[first->stamp], counts)) {
+            const Innovation& innovation = (first++)->innovation;
+            if (!origin) continue;
+            Sorted sorted{std::nullopt, objectOf(innovation), innovation.outcome == Outcome::tentative};
+            if (origin->kind != "clutter") sorted.source = Source{origin->kind == "mover", origin->id};
             detections.push_back(sorted);
         }
     }
@@ -96,6 +114,7 @@ std::map<Key, Value> mostFrequent(const std::map<Key, std::map<Value, Tally>>& t
 void add(AssociationScores& scores, const AssociationScores& more) {
     scores.detections += more.detections;
     scores.found += more.found;
+    scores.tentative += more.tentative;
     scores.associated += more.associated;
     scores.right += more.right;
     scores.clutter += more.clutter;
@@ -118,15 +137,16 @@ Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Trut
     AssociationMetrics metrics;
     const std::vector<Sorted> detections = sortDetections(run, truth, metrics);
     if (detections.empty())
-        return Result::absent(metrics.unnumbered > 0
-                                  ? "the run took in fewer detections than truth has at every stamp, so that "
-                                    "their numbers do not fit"
-                                  : "truth has no association of any detection of the run");
+        return Result::absent(
+            metrics.unnumbered > 0
+                ? "the log had fewer detections than truth has at every stamp, so that their "
+                  "numbers do not fit"
+                : "truth has no association of any detection of the run");
 
     std::map<Object, std::map<Source, Tally>> sources_of;
     std::map<Source, std::map<Object, Tally>> objects_of;
     for (std::size_t i = 0; i < detections.size(); ++i) {
-        const auto& [source, object] = detections[i];
+        const auto& [source, object, tentative] = detections[i];
         if (!source || !object) continue;
         ++sources_of[*object].try_emplace(*source, Tally{0, i}).first->second.count;
     }
@@ -134,7 +154,13 @@ Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Trut
     for (const auto& [object, source] : stands_for) objects_of[source][object] = sources_of[object][source];
     const std::map<Source, Object> object_of = mostFrequent(objects_of);
 
-    for (const auto& [source, object] : detections) {
+    for (const auto& [source, object, tentative] : detections) {
+        if (tentative) {
+            ++(!source         ? metrics.tentative_clutter
+               : source->first ? metrics.movers.tentative
+                               : metrics.landmarks.tentative);
+            continue;
+        }
         if (source) {
             AssociationScores& scores = source->first ? metrics.movers : metrics.landmarks;
             const auto expected = object_of.find(*source);

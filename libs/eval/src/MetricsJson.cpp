@@ -92,12 +92,17 @@ Json json(const TrackSetDistance& t) {
 Json json(const AssociationScores& s) {
     return {{"recall", number(s.recall)}, {"precision", number(s.precision)}, {"detections", s.detections},
             {"found", s.found},           {"associated", s.associated},       {"right", s.right},
-            {"clutter", s.clutter}};
+            {"clutter", s.clutter},       {"tentative", s.tentative}};
 }
 
 Json json(const AssociationMetrics& a) {
-    return {{"all", json(a.all)}, {"landmarks", json(a.landmarks)},   {"movers", json(a.movers)},
-            {"used", a.used},     {"without_truth", a.without_truth}, {"unnumbered", a.unnumbered}};
+    return {{"all", json(a.all)},
+            {"landmarks", json(a.landmarks)},
+            {"movers", json(a.movers)},
+            {"used", a.used},
+            {"without_truth", a.without_truth},
+            {"unnumbered", a.unnumbered},
+            {"tentative_clutter", a.tentative_clutter}};
 }
 
 Json json(const TrackingMetrics& t) {

@@ -23,7 +23,9 @@ Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& in
     for (const InnovationRow& row : innovations) {
         Collected& group = groups[{row.sensor, row.innovation.kind}];
         ++group.outcomes[row.innovation.outcome];
-        if (std::isfinite(row.innovation.nis)) group.values.push_back(row.innovation.nis);
+        // Tentative ones are measured against what is not part of the estimate.
+        if (std::isfinite(row.innovation.nis) && row.innovation.outcome != Outcome::tentative)
+            group.values.push_back(row.innovation.nis);
     }
 
     ChiSquareTable table(probability);

@@ -84,7 +84,7 @@ void readTracks(const std::string& file, RunRecord& run) {
     const std::array<const char*, 6> names{"x", "y", "vx", "vy", "ax", "ay"};
     for (std::size_t i = 0; i < 6; ++i) state[i] = table.column(names[i]);
     const SymmetricColumns<6> covariance(table, [](int r, int c) { return fmt::format("c_{}_{}", r, c); });
-    const auto source = columnIfAny(table, "source_id");
+    const auto source = columnIfAny(table, "source_id"), moving = columnIfAny(table, "moving");
     std::vector<int> modes;
     for (const std::string& name : table.header())
         if (name.rfind("p_", 0) == 0) {
@@ -100,6 +100,7 @@ void readTracks(const std::string& file, RunRecord& run) {
             track.mean(static_cast<Eigen::Index>(i)) = finite(table, state[i]);
         track.covariance = covariance.read(table);
         track.existence = finite(table, existence);
+        if (moving) track.moving = finite(table, *moving);
         for (const int mode : modes) track.mode_probabilities.push_back(finite(table, mode));
         run.tracks[table.stamp(t)].push_back(std::move(track));
     }
@@ -112,7 +113,8 @@ std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
     const int first = table.column("first_t"), last = table.column("last_t");
     const SymmetricColumns<2> covariance(
         table, [](int r, int c) { return fmt::format("c_{}{}", "xy"[r], "xy"[c]); });
-    const auto source = columnIfAny(table, "source_id");
+    const auto source = columnIfAny(table, "source_id"), existence = columnIfAny(table, "existence"),
+               moving = columnIfAny(table, "moving");
     std::vector<LandmarkEstimate> landmarks;
     while (table.next()) {
         LandmarkEstimate landmark;
@@ -123,6 +125,8 @@ std::vector<LandmarkEstimate> readLandmarks(const std::string& file) {
         landmark.seen = table.integer(seen);
         landmark.first_seen = table.stamp(first);
         landmark.last_seen = table.stamp(last);
+        if (existence) landmark.existence = finite(table, *existence);
+        if (moving) landmark.moving = finite(table, *moving);
         landmarks.push_back(landmark);
     }
     return landmarks;
@@ -136,10 +140,11 @@ std::vector<InnovationRow> readInnovations(const std::string& file) {
     const int r_range = table.column("r_range"), r_bearing = table.column("r_bearing"),
               nis = table.column("nis");
     const int s_rr = table.column("s_rr"), s_rb = table.column("s_rb"), s_bb = table.column("s_bb");
-    const auto detection = columnIfAny(table, "detection");
+    const auto detection = columnIfAny(table, "detection"), log_number = columnIfAny(table, "log_number"),
+               log_count = columnIfAny(table, "log_count");
     const std::array kinds{ObjectKind::landmark, ObjectKind::mover, ObjectKind::unknown};
-    const std::array outcomes{Outcome::updated, Outcome::inflated, Outcome::rejected, Outcome::initiated,
-                              Outcome::ignored};
+    const std::array outcomes{Outcome::updated,   Outcome::inflated,  Outcome::rejected,
+                              Outcome::initiated, Outcome::tentative, Outcome::ignored};
     std::vector<InnovationRow> rows;
     while (table.next()) {
         InnovationRow row;
@@ -155,6 +160,9 @@ std::vector<InnovationRow> readInnovations(const std::string& file) {
         const double rb = table.number(s_rb);
         i.covariance << table.number(s_rr), rb, rb, table.number(s_bb);
         i.nis = table.number(nis);
+        if (log_number && log_count)
+            row.log = LogNumber{static_cast<int>(table.integer(*log_number)),
+                                static_cast<int>(table.integer(*log_count))};
         rows.push_back(std::move(row));
     }
     return rows;

@@ -24,8 +24,9 @@ bool isSight(Outcome outcome) {
 
 SeenSet seenTracks(const std::vector<InnovationRow>& innovations) {
     SeenSet seen;
-    for (const auto& [stamp, sensor, innovation] : innovations)
-        if (innovation.track.valid() && isSight(innovation.outcome)) seen.emplace(stamp, innovation.track);
+    for (const InnovationRow& row : innovations)
+        if (row.innovation.track.valid() && isSight(row.innovation.outcome))
+            seen.emplace(row.stamp, row.innovation.track);
     return seen;
 }
 

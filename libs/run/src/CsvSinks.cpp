@@ -53,7 +53,7 @@ TracksSink::TracksSink(const std::string& folder, double interval, const std::ve
         for (int j = i; j < 6; ++j) header += fmt::format(",c_{}_{}", i, j);
     header += ",existence";
     for (const std::string& mode : mode_names) header += ",p_" + mode;
-    csv_.line(header + ",source_id");
+    csv_.line(header + ",moving,source_id");
 }
 
 void TracksSink::step(const Step& step) {
@@ -65,6 +65,7 @@ void TracksSink::step(const Step& step) {
             for (int j = i; j < 6; ++j) appendField(line, track.covariance(i, j));
         appendField(line, track.existence);
         for (const double p : track.mode_probabilities) appendField(line, p);
+        appendField(line, track.moving);
         appendField(line, idOf(track.source));
         csv_.line(line);
     }
@@ -76,37 +77,41 @@ void TracksSink::end(const RunEnd&) {
 
 void LandmarksSink::end(const RunEnd& end) {
     PartFile csv(folder_ + "/landmarks.csv");
-    csv.line("id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,source_id");
+    csv.line("id,x,y,c_xx,c_xy,c_yy,seen,first_t,last_t,existence,moving,source_id");
     for (const LandmarkEstimate& l : end.landmarks)
         csv.line(row(l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0), l.covariance(0, 1),
-                     l.covariance(1, 1), l.seen, l.first_seen, l.last_seen, idOf(l.source)));
+                     l.covariance(1, 1), l.seen, l.first_seen, l.last_seen, l.existence, l.moving,
+                     idOf(l.source)));
     csv.close();
 }
 
 LandmarksHistorySink::LandmarksHistorySink(const std::string& folder)
     : csv_(folder + "/landmarks_history.csv") {
-    csv_.line("t,id,x,y,c_xx,c_xy,c_yy,source_id");
+    csv_.line("t,id,x,y,c_xx,c_xy,c_yy,existence,moving,source_id");
 }
 
 void LandmarksHistorySink::step(const Step& step) {
     for (const LandmarkEstimate& l : step.touched)
         csv_.line(row(step.estimate.stamp, l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0),
-                      l.covariance(0, 1), l.covariance(1, 1), idOf(l.source)));
+                      l.covariance(0, 1), l.covariance(1, 1), l.existence, l.moving, idOf(l.source)));
 }
 
 InnovationsSink::InnovationsSink(const std::string& folder) : csv_(folder + "/innovations.csv") {
-    csv_.line("t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection");
+    csv_.line(
+        "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection,"
+        "log_number,log_count");
 }
 
 void InnovationsSink::step(const Step& step) {
     const RangeBearingSet& set = step.detections.rangeBearing();
     for (const Innovation& i : step.report.innovations)
-        csv_.line(row(step.estimate.stamp,
-                      std::string_view(set.sensors[set.detections[i.detection].sensor].label),
-                      std::string_view(slamot::toText(i.kind)), i.landmark.value, i.track.value,
-                      std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(),
-                      i.covariance(0, 0), i.covariance(0, 1), i.covariance(1, 1), i.nis,
-                      static_cast<std::int64_t>(i.detection)));
+        csv_.line(row(
+            step.estimate.stamp, std::string_view(set.sensors[set.detections[i.detection].sensor].label),
+            std::string_view(slamot::toText(i.kind)), i.landmark.value, i.track.value,
+            std::string_view(slamot::toText(i.outcome)), i.residual.x(), i.residual.y(), i.covariance(0, 0),
+            i.covariance(0, 1), i.covariance(1, 1), i.nis, static_cast<std::int64_t>(i.detection),
+            static_cast<std::int64_t>(step.log_numbers.at(static_cast<std::size_t>(i.detection))),
+            static_cast<std::int64_t>(step.log_count)));
 }
 
 StepsSink::StepsSink(const std::string& folder) : csv_(folder + "/steps.csv") {

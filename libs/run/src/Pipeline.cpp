@@ -53,12 +53,6 @@ bool isScan(const mrpt::obs::CObservation& observation) {
            dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
 }
 
-const char* whyUnusable(const RangeBearingReading::Item& item) {
-    if (!std::isfinite(item.range) || !std::isfinite(item.bearing)) return "not-finite";
-    if (item.range <= 0) return "range-not-positive";
-    return nullptr;
-}
-
 void appendSet(const RangeBearingSet& detected, RangeBearingSet& set) {
     const int offset = static_cast<int>(set.sensors.size());
     set.sensors.insert(set.sensors.end(), detected.sensors.begin(), detected.sensors.end());
@@ -93,7 +87,8 @@ Pipeline::Pipeline(const RunConfig& config, Estimator& estimator, Detector* dete
       detector_(detector),
       truth_(truth),
       threads_(threads),
-      sinks_(std::move(sinks)) {}
+      sinks_(std::move(sinks)),
+      builder_(config, drops_, counts_.clutter) {}
 
 void Pipeline::push(const LogEntry& entry) {
     if (entry.increment) {
@@ -107,7 +102,7 @@ void Pipeline::push(const LogEntry& entry) {
     if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
         if (const auto reading = usable(*odometry)) pushOdometry(*reading, odometry->sensorLabel);
     } else if (const auto* seen = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&observation)) {
-        if (const auto reading = usable(*seen)) pushDetections(*reading);
+        pushDetections(*seen, entry.stamp);
     } else if (isScan(observation)) {
         pushScan(entry.observation, entry.stamp);
     } else {
@@ -191,16 +186,25 @@ void Pipeline::pushOdometry(const OdometryReading& reading, const std::string& l
     last_reading_ = reading;
 }
 
-void Pipeline::pushDetections(const RangeBearingReading& reading) {
-    const auto role = config_.sensors.of(reading.sensor.label);
-    if (!role || *role == SensorRole::ignore || *role == SensorRole::lidar) {
-        drops_.add(reading.sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
-        return;
-    }
-    if (Held* held = holdFor(reading.stamp))
-        held->readings.push_back(reading);
+void Pipeline::pushDetections(const mrpt::obs::CObservationBearingRange& seen, Stamp stamp) {
+    // What is not used counts too: truth numbers all detections of the log.
+    int& log_count = log_counts_[stamp];
+    HeldReading held;
+    held.observation = observations_++;
+    held.first_number = log_count;
+    log_count += static_cast<int>(seen.sensedData.size());
+
+    const auto reading = usable(seen);
+    if (!reading) return;
+    held.reading = *reading;
+    held.claim = Vector2(seen.sensor_std_range, seen.sensor_std_yaw).cwiseAbs2().asDiagonal();
+    const auto role = config_.sensors.of(reading->sensor.label);
+    if (!role || *role == SensorRole::ignore || *role == SensorRole::lidar)
+        drops_.add(reading->sensor.label, role ? "role-ignore" : "no-role-in-[sensors]");
+    else if (Held* waiting = holdFor(stamp))
+        waiting->readings.push_back(std::move(held));
     else
-        drops_.add(reading.sensor.label, "after-odometry");
+        drops_.add(reading->sensor.label, "after-odometry");
 }
 
 Pipeline::Held* Pipeline::holdFor(Stamp stamp) {
@@ -217,10 +221,11 @@ void Pipeline::dropHeldBefore(Stamp stamp) {
         std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.stamp >= stamp; });
     for (auto held = held_.begin(); held != kept; ++held) drop(*held, "before-odometry");
     held_.erase(held_.begin(), kept);
+    log_counts_.erase(log_counts_.begin(), log_counts_.lower_bound(stamp));
 }
 
 void Pipeline::drop(const Held& held, const std::string& reason) {
-    for (const auto& reading : held.readings) drops_.add(reading.sensor.label, reason);
+    for (const HeldReading& one : held.readings) drops_.add(one.reading.sensor.label, reason);
     for (const auto& scan : held.scans) drops_.add(scan->sensorLabel, reason);
 }
 
@@ -288,13 +293,18 @@ void Pipeline::take(const Held& held) {
     DetectionSet set;
     set.stamp = held.stamp;
     auto& range_bearing = std::get<RangeBearingSet>(set.measurements);
-    for (const RangeBearingReading& reading : held.readings) appendReading(reading, range_bearing);
+    for (const HeldReading& reading : held.readings)
+        builder_.append(reading, range_bearing, step_.log_numbers);
     std::vector<Detected> detected;
     for (const auto& scan : held.scans) {
         const StageClock clock(step_.times.detect, step_.times.detect_cpu, threads_);
         detected.push_back(detector_->detect(*scan, estimator_.robot()));
         appendSet(detected.back().detections, range_bearing);
     }
+    step_.log_count = log_counts_[held.stamp];
+    log_counts_.erase(log_counts_.begin(), log_counts_.upper_bound(held.stamp));
+    for (int next = step_.log_count; step_.log_numbers.size() < range_bearing.detections.size();)
+        step_.log_numbers.push_back(next++);  // found in scans: after the log's own
     {
         const StageClock clock(step_.times.update, step_.times.update_cpu, threads_);
         step_.report = estimator_.update(set);
@@ -307,56 +317,6 @@ void Pipeline::take(const Held& held) {
     ++counts_.detection_sets;
     counts_.detections += static_cast<std::int64_t>(range_bearing.detections.size());
     step_.detections = std::move(set);
-}
-
-void Pipeline::appendReading(const RangeBearingReading& reading, RangeBearingSet& set) {
-    const SensorRole role = *config_.sensors.of(reading.sensor.label);
-    const int sensor = static_cast<int>(set.sensors.size());
-    set.sensors.push_back(reading.sensor);
-    for (const RangeBearingReading::Item& item : reading.items) {
-        if (const char* reason = whyUnusable(item)) {
-            drops_.add(reading.sensor.label, reason);
-            continue;
-        }
-        RangeBearingDetection detection;
-        detection.range = item.range;
-        detection.bearing = wrapAngle(item.bearing);
-        detection.covariance = noiseOf(reading, item);
-        detection.kind = role == SensorRole::landmarks ? ObjectKind::landmark
-                         : role == SensorRole::movers  ? ObjectKind::mover
-                                                       : ObjectKind::unknown;
-        const Identities shown =
-            detection.kind == ObjectKind::mover ? config_.mover_identities : config_.landmark_identities;
-        if (shown == Identities::log && detection.kind != ObjectKind::unknown) detection.source = item.id;
-        detection.sensor = sensor;
-        set.detections.push_back(detection);
-    }
-}
-
-Matrix2 Pipeline::noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const {
-    NoiseOverride noise = config_.noise;
-    if (const auto found = config_.noise_by_label.find(reading.sensor.label);
-        found != config_.noise_by_label.end()) {
-        if (found->second.range_std) noise.range_std = found->second.range_std;
-        if (found->second.range_std_per_m) noise.range_std_per_m = found->second.range_std_per_m;
-        if (found->second.bearing_std) noise.bearing_std = found->second.bearing_std;
-    }
-    Matrix2 covariance = item.covariance;
-    const auto replace = [&covariance](int i, double deviation) {
-        covariance(0, 1) = covariance(1, 0) = 0;
-        covariance(i, i) = deviation * deviation;
-    };
-    if (noise.range_std || noise.range_std_per_m)
-        replace(0, noise.range_std.value_or(std::sqrt(covariance(0, 0))) +
-                       noise.range_std_per_m.value_or(0) * item.range);
-    if (noise.bearing_std) replace(1, *noise.bearing_std);
-    if (!(covariance(0, 0) > 0 && covariance(1, 1) > 0 && covariance.determinant() > 0))
-        throw ConfigError(
-            fmt::format("sensor '{}' claims no usable noise at t = {}: set range_std and bearing_std_deg "
-                        "in [noise{}] of the config",
-                        reading.sensor.label, slamot::toText(reading.stamp),
-                        reading.sensor.label.empty() ? "" : "." + reading.sensor.label));
-    return covariance;
 }
 
 void Pipeline::closeStep() {

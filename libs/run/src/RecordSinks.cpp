@@ -10,8 +10,10 @@ namespace slamot::run {
 void RunRecorder::step(const Step& step) {
     for (const Innovation& innovation : step.report.innovations) {
         const RangeBearingSet& set = step.detections.rangeBearing();
-        record_.innovations.push_back(
-            {step.estimate.stamp, set.sensors[set.detections[innovation.detection].sensor].label, innovation});
+        const auto index = static_cast<std::size_t>(innovation.detection);
+        record_.innovations.push_back({step.estimate.stamp, set.sensors[set.detections[index].sensor].label,
+                                       innovation,
+                                       eval::LogNumber{step.log_numbers.at(index), step.log_count}});
     }
     if (!clock_.due(step)) return;
     record_.trajectory.push_back({step.estimate.stamp, step.estimate.robot});
@@ -27,6 +29,7 @@ void EstimateHash::step(const Step& step) {
         addNumbers(track.mean.data(), 6);
         addNumbers(track.covariance.data(), 36);
         addNumbers(&track.existence, 1);
+        addNumbers(&track.moving, 1);
         addNumbers(track.mode_probabilities.data(), track.mode_probabilities.size());
     }
 }
@@ -36,6 +39,8 @@ void EstimateHash::end(const RunEnd& end) {
         addInteger(landmark.id.value);
         addNumbers(landmark.mean.data(), 2);
         addNumbers(landmark.covariance.data(), 4);
+        addNumbers(&landmark.existence, 1);
+        addNumbers(&landmark.moving, 1);
     }
     hex_ = sum_.hex();
 }

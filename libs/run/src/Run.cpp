@@ -36,16 +36,20 @@ void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std
         throw LogError(fmt::format("{}: has no odometry to start with (CObservationOdometry, or actions of "
                                    "action-frame logs); {}{}",
                                    log, dropsInWords(drops), detail));
-    if (estimator.usesDetections() && pipeline.counts().detections == 0)
+    const PipelineCounts& counts = pipeline.counts();
+    if (estimator.usesDetections() && counts.detections == 0 && counts.clutter.withheld == 0)
         throw LogError(fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
                                    "[sensors], or lidar with a detector); {}{}",
                                    log, estimator.name(), dropsInWords(drops), detail));
     const Health health = estimator.estimate().health;
     if (estimator.usesDetections() && health.detections_ignored > 0 &&
-        health.detections_used + health.detections_inflated + health.detections_rejected == 0)
-        throw LogError(fmt::format("{}: {} had no use for any of the {} detections: it needs identities, but they are "
-                                   "hidden ([identities]), -1 in the log, or of sensors with role mixed",
-                                   log, estimator.name(), health.detections_ignored));
+        health.detections_used + health.detections_inflated + health.detections_rejected +
+                health.detections_tentative ==
+            0)
+        throw LogError(fmt::format(
+            "{}: {} had no use for any of the {} detections: it goes by identities alone, but they are "
+            "hidden ([identities]), -1 in the log, or of sensors with role mixed",
+            log, estimator.name(), health.detections_ignored));
 }
 
 RunStatus statusOf(const LogSource& source, bool stopped) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "slamot/core/random/Clutter.h"
+
 namespace slamot::run {
 namespace {
 
@@ -53,6 +55,41 @@ Parameter startPose(StartParameters& start) {
                 return fmt::format("{},{},{}", shortestText(start.pose.x), shortestText(start.pose.y),
                                    shortestText(degrees(start.pose.theta)));
             }};
+}
+
+Parameter clutterSeed(ClutterParameters& clutter) {
+    const std::string expected = "a whole number from 0 to 18446744073709551615 or 'auto'";
+    return {"seed",
+            "-",
+            expected,
+            "Key of these draws; auto: that of the run. Studies set it to the world's.",
+            [&clutter, expected](const std::string& text) -> std::optional<std::string> {
+                std::uint64_t seed = 0;
+                ParameterTable table("clutter", "");
+                table.seed("seed", seed, "");
+                if (text == "auto")
+                    clutter.seed.reset();
+                else if (table.find("seed")->parse(text))
+                    return expected;
+                else
+                    clutter.seed = seed;
+                return std::nullopt;
+            },
+            [&clutter] { return clutter.seed ? std::to_string(*clutter.seed) : std::string("auto"); }};
+}
+
+ParameterTable describeClutter(ClutterParameters& clutter) {
+    ParameterTable table(
+        "clutter", "What is done to the log's range-bearing observations, to see how an estimator bears it.");
+    table
+        .real("per_scan", clutter.per_scan, "-", {0, max_clutter_per_scan},
+              "Mean number of false detections added to each, uniform in range and bearing; the sensor needs "
+              "a largest "
+              "range.")
+        .real("detection_probability", clutter.detection_probability, "-", Interval::probability(),
+              "Each detection of the log is kept with this probability.")
+        .custom(clutterSeed(clutter));
+    return table;
 }
 
 SensorRoles readSensors(const Config& config) {
@@ -149,9 +186,11 @@ std::vector<ParameterTable> describe(RunConfig& c) {
     return {run,
             slamot::describe(c.log),
             identities,
-            describeNoise(c.noise, "noise",
-                          "Noise of range-bearing sensors, where it shall not be what the log claims; [noise.<label>] "
-                          "does so for one sensor."),
+            describeNoise(
+                c.noise, "noise",
+                "Noise of range-bearing sensors, where it shall not be what the log claims; [noise.<label>] "
+                "does so for one sensor."),
+            describeClutter(c.clutter),
             start,
             output};
 }

@@ -25,9 +25,12 @@ nlohmann::json countsJson(const PipelineCounts& counts, const Estimate& estimate
             {"detection_sets", counts.detection_sets},
             {"detections", counts.detections},
             {"detection_sets_extrapolated", counts.extrapolated},
+            {"clutter_added", counts.clutter.added},
+            {"detections_withheld", counts.clutter.withheld},
             {"detections_used", health.detections_used},
             {"detections_inflated", health.detections_inflated},
             {"detections_rejected", health.detections_rejected},
+            {"detections_tentative", health.detections_tentative},
             {"detections_ignored", health.detections_ignored},
             {"landmarks", estimate.landmark_count},
             {"tracks_at_end", estimate.tracks.size()}};

@@ -1,5 +1,6 @@
 // One table per section of a scenario: keys, units, defaults, ranges.
 #include "ScenarioText.h"
+#include "slamot/core/random/Clutter.h"
 #include "slamot/sim/Scenario.h"
 
 namespace slamot::sim {
@@ -8,7 +9,6 @@ namespace {
 // Nothing is infinite but the time a mover vanishes.
 constexpr double max_count = 1e6;
 constexpr double huge = 1e6;
-constexpr double max_clutter = 400;  ///< RandomStream::poisson needs a mean below 500
 constexpr Interval any_finite{-huge, huge};
 constexpr Interval from_zero{0, huge};
 constexpr Interval above_zero{0, huge, true, false};
@@ -158,7 +158,7 @@ ParameterTable describe(SensorParameters& s) {
                    "noise it has; auto: as claimed.");
     t.real("detection_probability", s.detection_probability, "-", Interval::probability(),
            "of each object in view, each scan.");
-    t.real("clutter_per_scan", s.clutter_per_scan, "-", {0, max_clutter},
+    t.real("clutter_per_scan", s.clutter_per_scan, "-", {0, max_clutter_per_scan},
            "mean number of false detections (Poisson), uniform in range and bearing.");
     t.real("outlier_probability", s.outlier_probability, "-", Interval::probability(),
            "of a detection whose range and bearing are replaced by a uniform draw; its identity stays.");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slamot/core/models/RangeBearing.h"
+#include "slamot/core/random/Clutter.h"
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot::sim {
@@ -29,17 +30,14 @@ bool inView(const SensorParameters& sensor, const Vector2& z) {
            (full_circle || std::abs(z.y()) <= 0.5 * sensor.field_of_view);
 }
 
-/// Anywhere in the field of view, uniform in range and bearing.
-Vector2 anywhere(const SensorParameters& sensor, RandomStream& random) {
-    const double range = random.uniform(sensor.min_range, sensor.max_range);
-    return {range, wrapAngle(random.uniform(-0.5, 0.5) * sensor.field_of_view)};
-}
-
 }  // namespace
 
 Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, int step, const Pose2& pose,
           const World& world, const std::vector<Trajectory>& movers, std::uint64_t seed) {
     const Pose2 mounting{sensor.position.x(), sensor.position.y(), sensor.orientation};
+    Scan result;
+    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range,
+                             sensor.field_of_view};
     // Most landmarks of a large world are far away: left out without an arctangent, with a margin for
     // rounding.
     const Vector2 eye = (pose * mounting).position();
@@ -70,7 +68,8 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
         const std::uint32_t object = keyOf(is_mover, id);
         if (stream(RandomPurpose::detection, object).uniform() >= sensor.detection_probability) return;
         RandomStream noise = stream(RandomPurpose::range_bearing, object);
-        if (noise.uniform() < sensor.outlier_probability) return add(anywhere(sensor, noise), kind, id);
+        if (noise.uniform() < sensor.outlier_probability)
+            return add(anywhereInView(result.reading.sensor, noise), kind, id);
         // A range has no sign: what noise takes below zero comes back as its absolute value.
         const double range =
             std::abs(z.x() + noise.normal(0, sensor.true_range_std.value_or(sensor.range_std)));
@@ -88,16 +87,12 @@ Scan scan(const Scenario& scenario, const SensorParameters& sensor, int robot, i
         }
     }
     RandomStream clutter = stream(RandomPurpose::clutter, 0);
-    for (int left = clutter.poisson(sensor.clutter_per_scan); left > 0; --left) {
-        add(anywhere(sensor, clutter), "clutter", SourceId{});
-    }
+    for (const Vector2& z : drawClutter(result.reading.sensor, sensor.clutter_per_scan, clutter))
+        add(z, "clutter", SourceId{});
 
     std::stable_sort(detected.begin(), detected.end(),
                      [](const Detected& a, const Detected& b) { return a.item.bearing < b.item.bearing; });
-    Scan result;
     result.reading.stamp = stamp;
-    result.reading.sensor = {sensor.label, mounting, sensor.min_range, sensor.max_range,
-                             sensor.field_of_view};
     result.range_std = sensor.range_std;
     result.bearing_std = sensor.bearing_std;
     for (Detected& d : detected) {

@@ -41,6 +41,7 @@ PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::si
     planned.config = at(study.config_grid[point], withOverrides(base, study.variants[variant].overrides),
                         "grid", study.text);
     planned.config.set("run", "seed", "1");
+    if (planned.config.has("clutter")) planned.config.set("clutter", "seed", "auto");
     const run::AssembledRun assembled = run::assembleRun(planned.config, registry);
     planned.digest = digestOf({assembled.canonical_config});
     std::vector<const PluginInfo*> plugins = {&registry.find(assembled.config.estimator, "estimator")};
@@ -120,6 +121,14 @@ std::vector<RunPlan> runsIn(const Plan& plan, std::size_t source) {
             runs.push_back({config.variant, config.config_point, c});
     }
     return runs;
+}
+
+/// Of each log of a source: what the request says, unless the file runs its logs once.
+int replicatesOf(const Source& source, const StudyFile& study, const PlanRequest& request) {
+    const int wanted = source.log->replicates;
+    if (wanted == 1) return 1;
+    return request.replicates.value_or(
+        request.short_form ? std::min(wanted, study.parameters.short_replicates) : wanted);
 }
 
 std::uint64_t sourceSeed(const StudyFile& study, std::size_t source) {
@@ -203,13 +212,15 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
         if (!file.sources[source].log) continue;
         const FoundLogs found = findLogs(file, file.sources[source], request.work_folder);
         if (!found.why_none.empty()) plan.skipped.push_back(found.why_none);
-        int replicate = 0;
+        const std::size_t first_kind = plan.kinds.size();
         for (PlannedWorldKind& kind : logKinds(file, source, found.files)) {
             kind.runs = runsIn(plan, source);
             plan.kinds.push_back(std::move(kind));
-            plan.worlds.push_back(
-                worldOf(plan, plan.kinds.size() - 1, ++replicate, sourceSeed(file, source)));
         }
+        int replicate = 0;
+        for (int round = replicatesOf(file.sources[source], file, request); round > 0; --round)
+            for (std::size_t kind = first_kind; kind < plan.kinds.size(); ++kind)
+                plan.worlds.push_back(worldOf(plan, kind, ++replicate, sourceSeed(file, source)));
     }
     const int replicates = request.replicates.value_or(request.short_form ? file.parameters.short_replicates
                                                                           : file.parameters.replicates);

@@ -69,8 +69,8 @@ std::pair<std::string, std::string> addressOf(const Setting& setting) {
     const auto dot = setting.key.rfind('.');
     if (dot == std::string::npos || dot == 0 || dot + 1 == setting.key.size())
         fail(setting.origin, fmt::format("'{}', expected section.key", setting.key));
-    if (setting.key == "run.seed")
-        fail(setting.origin, "run.seed is derived for every run, expected [study] seed instead");
+    if (setting.key == "run.seed" || setting.key == "clutter.seed")
+        fail(setting.origin, setting.key + " is derived for every run, expected [study] seed instead");
     return {setting.key.substr(0, dot), setting.key.substr(dot + 1)};
 }
 
@@ -146,6 +146,15 @@ void readStudySection(const Config& text, StudyParameters& p) {
     if (!p.series.empty()) requireKnownSeries(p.series, text.section("study").at("series").origin);
 }
 
+void readInteger(const SourceSection& section, const std::string& key, Interval interval, int& number) {
+    const Setting* setting = section.find(key);
+    if (!setting) return;
+    ParameterTable table("", "");
+    table.integer(key, number, interval, "");
+    if (const auto expected = table.find(key)->parse(setting->value))
+        fail(setting->origin, fmt::format("{} = '{}', expected {}", key, setting->value, *expected));
+}
+
 Source readScenario(const Config& text, const std::string& name) {
     const SourceSection section(text, scenario_prefix + name, {"file", "robot", "config"}, true);
     std::optional<Config> file = section.file("file", "a scenario");
@@ -153,19 +162,15 @@ Source readScenario(const Config& text, const std::string& name) {
         fail(text.origin(scenario_prefix + name),
              fmt::format("[{}{}] has no 'file', expected a scenario", scenario_prefix, name));
     ScenarioSource source{withOverrides(*std::move(file), section.overrides()), 0};
-    if (const Setting* robot = section.find("robot")) {
-        ParameterTable table("", "");
-        table.integer("robot", source.robot, Interval::between(0, 999999), "");
-        if (const auto expected = table.find("robot")->parse(robot->value))
-            fail(robot->origin, fmt::format("robot = '{}', expected {}", robot->value, *expected));
-    }
+    readInteger(section, "robot", Interval::between(0, 999999), source.robot);
     return {name, std::move(source), std::nullopt, section.file("config", "a run's config")};
 }
 
 Source readLog(const Config& text, const std::string& name) {
     const std::string place = log_prefix + name;
-    const SourceSection section(text, place, {"import", "folder", "files", "config"}, false);
-    LogSourceFiles source{section.value("import"), section.value("folder"), section.value("files")};
+    const SourceSection section(text, place, {"import", "folder", "files", "config", "replicates"}, false);
+    LogSourceFiles source{section.value("import"), section.value("folder"), section.value("files"), 1};
+    readInteger(section, "replicates", Interval::between(1, 1e6), source.replicates);
     if (source.files.empty())
         fail(text.origin(place),
              fmt::format("[{}] has no 'files', expected a pattern like robot_*.rawlog", place));

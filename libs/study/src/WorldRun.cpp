@@ -8,8 +8,10 @@
 namespace slamot::study {
 namespace {
 
-Config withSeed(Config config, std::uint64_t seed) {
-    config.set("run", "seed", std::to_string(seed));
+/// Clutter is part of the world: the same for every config, so that comparisons are paired.
+Config withSeeds(Config config, std::uint64_t estimator_seed, std::uint64_t world_seed) {
+    config.set("run", "seed", std::to_string(estimator_seed));
+    if (config.has("clutter")) config.set("clutter", "seed", std::to_string(world_seed));
     return config;
 }
 
@@ -18,7 +20,8 @@ Config withSeed(Config config, std::uint64_t seed) {
 WorldRun::WorldRun(const Plan& plan, const WorldPlan& planned, const RunPlan& run, const World& world,
                    const PluginRegistry& registry)
     : assembled(run::assembleRun(
-          withSeed(plan.configs[run.config].config, plan.estimatorSeedOf(planned, run)), registry)),
+          withSeeds(plan.configs[run.config].config, plan.estimatorSeedOf(planned, run), planned.world_seed),
+          registry)),
       log(world.log(assembled.config.log)) {
     input.source = log.get();
     input.log_name = world.name();

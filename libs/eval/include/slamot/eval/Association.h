@@ -10,8 +10,12 @@
 namespace slamot::eval {
 
 struct AssociationScores {
-    /// Detections that have a true source; those of them that went into the object that stands for it.
+    /// Detections that have a true source, tentative ones left out; those of them that went into the object
+    /// that stands for it.
     std::int64_t detections = 0, found = 0;
+    /// Detections that have a true source and are tentative: where they belong is not decided, so they are
+    /// neither right nor wrong.
+    std::int64_t tentative = 0;
     /// Detections that went into an object; those of them whose source the object stands for; those that are
     /// clutter.
     std::int64_t associated = 0, right = 0, clutter = 0;
@@ -24,11 +28,15 @@ struct AssociationMetrics {
     /// Recall of detections of true landmarks, precision of what went into estimated landmarks; likewise
     /// movers and tracks.
     AssociationScores landmarks, movers;
-    /// Detections used; and those left out: at stamps where the run took in fewer detections than truth has,
-    /// so that their numbers do not fit, or where truth says nothing of their source.
+    /// Clutter that is tentative: not taken for a thing.
+    std::int64_t tentative_clutter = 0;
+    /// Detections used, tentative ones included; and those left out: at stamps where the log had fewer
+    /// detections than truth has, so that their numbers do not fit, or where truth says nothing of their
+    /// source.
     std::int64_t used = 0, without_truth = 0, unnumbered = 0;
 };
 
+/// False detections that the run itself added are clutter wherever truth knows all others of their stamp.
 /// An object stands for the true source that most of its detections came from, of equals the one that came
 /// first; clutter is no source. Of several objects that stand for one source, the one with the most
 /// detections of it is the object that a detection should be found in, of equals the one that had its first.

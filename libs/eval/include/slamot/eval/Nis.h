@@ -16,8 +16,8 @@ struct NisGroup {
     ObjectKind kind = ObjectKind::unknown;
     /// Rows by outcome.
     std::map<Outcome, std::int64_t> outcomes;
-    /// Rows with a prediction: the ones the numbers below are made from, rejected ones included (leaving them
-    /// out would make any filter look consistent).
+    /// Rows with a prediction of the estimate: the ones the numbers below are made from, rejected ones
+    /// included (leaving them out would make any filter look consistent), tentative ones not.
     std::int64_t count = 0;
     /// Sum of NIS over sum of degrees of freedom: 1 when noises are right. Misreads raise it without bound.
     /// NaN, like the following, when `count` is 0.

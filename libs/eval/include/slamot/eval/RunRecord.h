@@ -2,6 +2,7 @@
 // A finished run as the metrics see it: filled in memory by the pipeline's recorder or read from an output
 // folder; both give the same numbers.
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,21 @@ struct RobotRow {
     PoseGaussian robot;
 };
 
+/// Where a detection stands among those that the log has at its stamp, used or not: as truth's associations
+/// count.
+struct LogNumber {
+    /// From 0; -1 for a false detection that the run itself added, `count` and more for what a detector
+    /// found.
+    int number = -1;
+    int count = 0;  ///< detections that the log has at the stamp
+};
+
 /// One innovation with the stamp and sensor it came from.
 struct InnovationRow {
     Stamp stamp;
     std::string sensor;
     Innovation innovation;
+    std::optional<LogNumber> log;  ///< nothing in files of programs that do not tell
 };
 
 struct RunRecord {

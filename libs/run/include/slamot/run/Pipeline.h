@@ -1,6 +1,7 @@
 #pragma once
 // From log entries to estimates: the one place where odometry and detections are put in step. Push-based: the
 // caller reads (or receives) entries in order and pushes them.
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 #include "slamot/rawlog/Conventions.h"
 #include "slamot/rawlog/RawlogReader.h"
 #include "slamot/rawlog/Truth.h"
+#include "slamot/run/DetectionBuilder.h"
 #include "slamot/run/RunConfig.h"
 #include "slamot/run/Sink.h"
 
@@ -23,6 +25,7 @@ struct PipelineCounts {
     /// Entries longer than max_odometry_gap, and frames without a movement: bridged.
     std::int64_t odometry_gaps = 0;
     std::int64_t extrapolated = 0;  ///< detection sets after the last odometry, reached at constant velocity
+    ClutterCounts clutter;
     StageTimes times;
 };
 
@@ -34,6 +37,7 @@ class Pipeline {
     /// `truth` may be null; it is read for `[start] pose = truth` only.
     Pipeline(const RunConfig& config, Estimator& estimator, Detector* detector, const Truth* truth, int threads,
              std::vector<Sink*> sinks);
+    Pipeline(const Pipeline&) = delete;
 
     void push(const LogEntry& entry);
     /// No more entries: processes what is held. The sinks are not told of the end yet.
@@ -57,7 +61,7 @@ class Pipeline {
     /// Observations of one stamp, waiting for odometry.
     struct Held {
         Stamp stamp;
-        std::vector<RangeBearingReading> readings;
+        std::vector<HeldReading> readings;
         std::vector<mrpt::obs::CObservation::Ptr> scans;
     };
 
@@ -66,7 +70,7 @@ class Pipeline {
     auto usable(const Observation& observation) -> std::optional<decltype(fromMrpt(observation))>;
     void pushIncrement(const OdometryIncrement& odometry);
     void pushOdometry(const OdometryReading& reading, const std::string& label);
-    void pushDetections(const RangeBearingReading& reading);
+    void pushDetections(const mrpt::obs::CObservationBearingRange& seen, Stamp stamp);
     void pushScan(const mrpt::obs::CObservation::Ptr& scan, Stamp stamp);
     /// Where what was seen at `stamp` waits; null when that is too long after the last odometry.
     Held* holdFor(Stamp stamp);
@@ -78,8 +82,6 @@ class Pipeline {
     /// Predicts to `stamp` with the first part of `rest`, which keeps the remainder.
     void predictTo(OdometryIncrement& rest, Stamp stamp);
     void take(const Held& held);
-    void appendReading(const RangeBearingReading& reading, RangeBearingSet& set);
-    Matrix2 noiseOf(const RangeBearingReading& reading, const RangeBearingReading::Item& item) const;
     void closeStep();
     void endSinks(const RunEnd& end);
 
@@ -92,12 +94,15 @@ class Pipeline {
 
     DropTable drops_;
     PipelineCounts counts_;
+    DetectionBuilder builder_;
     std::set<std::string> labels_;
     bool started_ = false;
     std::string odometry_label_;
     std::optional<OdometryReading> last_reading_;
     std::optional<OdometryIncrement> last_increment_;
-    std::vector<Held> held_;  ///< in order of stamp
+    std::vector<Held> held_;           ///< in order of stamp
+    std::map<Stamp, int> log_counts_;  ///< detections that the log has at a stamp, from the first one held
+    std::uint32_t observations_ = 0;   ///< range-bearing observations so far
     Step step_;               ///< of the estimator's present time; goes to the sinks when time moves on
     Estimate last_estimate_;  ///< of the last closed step
     std::size_t ended_ = 0;   ///< sinks that know of the end

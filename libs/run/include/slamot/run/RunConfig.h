@@ -12,6 +12,7 @@
 #include "slamot/core/plugin/PluginRegistry.h"
 #include "slamot/eval/Options.h"
 #include "slamot/rawlog/RawlogReader.h"
+#include "slamot/run/Clutter.h"
 
 namespace slamot::run {
 
@@ -58,6 +59,7 @@ struct RunConfig {
     SensorRoles sensors;
     NoiseOverride noise;
     std::map<std::string, NoiseOverride> noise_by_label;
+    ClutterParameters clutter;
     StartParameters start;
     OutputParameters output;
 };

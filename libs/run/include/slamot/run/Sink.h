@@ -35,6 +35,11 @@ struct Step {
     /// What was taken in at this stamp; both empty when nothing was.
     bool has_detections = false;
     DetectionSet detections;
+    /// Of each detection: its number among the detections that the log has at this stamp, used or not, as
+    /// truth's associations count; -1 for those that [clutter] added, log_count and more for those found in
+    /// scans.
+    std::vector<int> log_numbers;
+    int log_count = 0;
     UpdateReport report;
     /// The landmarks named in the report, after the update.
     std::vector<LandmarkEstimate> touched;

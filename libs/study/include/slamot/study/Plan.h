@@ -32,11 +32,12 @@ struct ScenarioSource {
     int robot = 0;    ///< the log taken, where there are several
 };
 
-/// Section `[log.NAME]`: recorded logs, each one world.
+/// Section `[log.NAME]`: recorded logs, each one world or, with replicates, several.
 struct LogSourceFiles {
     /// Made by an importer from a folder of SLAMOT_DATASETS, or files beside the study; a pattern
     /// (`robot_*.rawlog`).
     std::string importer, folder, files;
+    int replicates = 1;  ///< runs of each log, with seeds of their own
 };
 
 /// Where worlds come from. Exactly one of the two is set.
@@ -100,7 +101,7 @@ struct PlannedWorldKind {
 struct WorldPlan {
     std::uint32_t source = 0, scenario_point = 0;
     std::uint32_t kind = 0;  ///< index of Plan::kinds
-    int replicate = 1;       ///< counts from 1; of recorded logs, their number within the source
+    int replicate = 1;  ///< counts from 1; of recorded logs, their number within the source, round by round
     /// f(study seed, source's name, replicate): the same for every config and every point of the grid.
     std::uint64_t world_seed = 0;
 };

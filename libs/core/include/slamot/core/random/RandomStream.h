@@ -17,6 +17,8 @@ enum class RandomPurpose : std::uint32_t {
     clutter,
     resampling,
     proposal,
+    added_clutter,
+    withheld_detection,
 };
 
 /// An endless stream of draws keyed by (seed, purpose, robot, step, index), by Philox 4x32-10.
