@@ -66,6 +66,12 @@ void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
     synchronise();
 }
 
+BlockId BankedImm::addLandmark(const std::vector<PastSight>& sights) {
+    const BlockId landmark = ModalState::addLandmark(sights);
+    synchronise();
+    return landmark;
+}
+
 void BankedImm::mergeLandmarks(BlockId kept, BlockId gone, double deviation) {
     ModalState::mergeLandmarks(kept, gone, deviation);
     synchronise();

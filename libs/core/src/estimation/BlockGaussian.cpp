@@ -105,16 +105,16 @@ BlockMatrix BlockGaussian::covariance(const BlockPlace& a, const BlockPlace& b) 
     return P_.block(a.offset, a.offset, a.size, a.size).selfadjointView<Eigen::Lower>();
 }
 
-void BlockGaussian::augment(const NewBlock& block) {
+void BlockGaussian::augment(const NewBlock& block, int from) {
     const int before = n_, size = static_cast<int>(block.mean.size());
     append(size);
     x_.segment(before, size) = block.mean;
     P_.block(before, before, size, size) = block.own;
     if (before == 0) return;
-    auto robot = robot_columns_.topRows(n_);
-    gatherColumns(0, robot);
-    P_.block(before, 0, size, before).noalias() = block.G * robot.topRows(before).transpose();
-    P_.block(before, before, size, size) += P_.block(before, 0, size, 3) * block.G.transpose();
+    auto pose = robot_columns_.topRows(n_);
+    gatherColumns(from, pose);
+    P_.block(before, 0, size, before).noalias() = block.G * pose.topRows(before).transpose();
+    P_.block(before, before, size, size) += P_.block(before, from, size, 3) * block.G.transpose();
 }
 
 void BlockGaussian::propagate(const BlockLayout& layout, BlockId id,

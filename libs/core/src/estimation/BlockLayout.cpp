@@ -8,6 +8,7 @@ namespace slamot {
 int turningVectors(BlockKind kind) {
     switch (kind) {
         case BlockKind::robot:
+        case BlockKind::pose:
             return 1;
         case BlockKind::target:
             return 3;

@@ -37,7 +37,8 @@ BlockKind CompressedJointBank::kind(BlockId block) const {
 }
 
 BlockId CompressedJointBank::augment(BlockKind kind, const std::vector<NewBlock>& by_mode) {
-    for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i].gaussian.augment(by_mode.at(i));
+    const int from = layout_.dimension() == 0 ? 0 : layout_.at(by_mode.front().from).offset;
+    for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i].gaussian.augment(by_mode.at(i), from);
     layout_.append(next_id_, kind, static_cast<int>(by_mode.front().mean.size()));
     return next_id_++;
 }

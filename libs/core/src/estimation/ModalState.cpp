@@ -1,5 +1,7 @@
 #include "slamot/core/estimation/ModalState.h"
 
+#include "slamot/core/estimation/RangeBearingUpdate.h"
+
 namespace slamot {
 
 void KnownObjects::clear() {
@@ -13,6 +15,44 @@ void ModalState::attend(const RangeBearingSet& seen, const std::vector<BlockId>&
 
 BlockId ModalState::addLandmark(const RelativeGaussian& landmark) {
     return bank_->augment(BlockKind::landmark, byMode(landmark));
+}
+
+BlockId ModalState::addLandmark(const std::vector<PastSight>& sights) {
+    const PastSight& first = sights.front();
+    const RelativeGaussian seen = firstSight(first.detection, first.sensor, bank_->consistency());
+    std::vector<NewBlock> blocks;
+    for (int j = 0; j < bank_->modeCount(); ++j) {
+        blocks.push_back(inWorld(seen, bank_->mode(j).mean(first.from)));
+        blocks.back().from = first.from;
+    }
+    const BlockId landmark = bank_->augment(BlockKind::landmark, blocks);
+    for (auto sight = sights.begin() + 1; sight != sights.end(); ++sight)
+        for (int j = 0; j < bank_->modeCount(); ++j) {
+            JointMode& mode = bank_->mode(j);
+            mode.update({linearise(mode, landmark, sight->detection, sight->sensor, bank_->consistency(),
+                                   sight->from)
+                             .measurement});
+        }
+    return landmark;
+}
+
+BlockId ModalState::rememberPose(std::optional<BlockId> again) {
+    const double reference = bank_->mode(0).mean(robot_block)(2);
+    const auto pose = [&](int j) {
+        Vector3 robot = bank_->mode(j).mean(robot_block);
+        robot.z() = reference + angleDifference(robot.z(), reference);
+        return robot;
+    };
+    if (!again) {
+        std::vector<NewBlock> blocks;
+        for (int j = 0; j < bank_->modeCount(); ++j)
+            blocks.push_back({pose(j), Matrix3::Identity(), Matrix3::Zero()});
+        return bank_->augment(BlockKind::pose, blocks);
+    }
+    for (int j = 0; j < bank_->modeCount(); ++j)
+        bank_->mode(j).propagate(*again, pose(j), Matrix3::Zero(), Matrix3::Zero(),
+                                 {{robot_block, Matrix3::Identity()}});
+    return *again;
 }
 
 void ModalState::mergeLandmarks(BlockId kept, BlockId gone, double deviation) {

@@ -9,11 +9,11 @@
 namespace slamot {
 namespace {
 
-/// Covariance of robot pose and object position, 5 x 5.
-Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId object) {
+/// Covariance of a pose and of an object's position, 5 x 5.
+Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId from, BlockId object) {
     Eigen::Matrix<double, 5, 5> P;
-    P.topLeftCorner<3, 3>() = state.covariance(robot_block, robot_block);
-    P.bottomLeftCorner<2, 3>() = state.covariance(object, robot_block).topRows<2>();
+    P.topLeftCorner<3, 3>() = state.covariance(from, from);
+    P.bottomLeftCorner<2, 3>() = state.covariance(object, from).topRows<2>();
     P.topRightCorner<3, 2>() = P.bottomLeftCorner<2, 3>().transpose();
     P.bottomRightCorner<2, 2>() = state.covariance(object, object).topLeftCorner<2, 2>();
     return P;
@@ -22,13 +22,13 @@ Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId object) {
 }  // namespace
 
 ExpectedSight expectedSight(const JointView& state, BlockId block, const Pose2& sensor,
-                            Consistency consistency) {
-    const Vector3 robot = state.mean(robot_block);
-    const RangeBearingPrediction h = predictRangeBearing(robot, state.mean(block).head<2>(), sensor);
-    const Eigen::Matrix<double, 5, 5> P = marginal(state, block);
+                            Consistency consistency, BlockId from) {
+    const Vector3 pose = state.mean(from);
+    const RangeBearingPrediction h = predictRangeBearing(pose, state.mean(block).head<2>(), sensor);
+    const Eigen::Matrix<double, 5, 5> P = marginal(state, from, block);
 
     ExpectedSight out;
-    out.measurement.add(robot_block, h.H_robot);
+    out.measurement.add(from, h.H_robot);
     out.measurement.add(block, h.H_point);
     out.measurement.R.setZero();
     out.detection.z = h.z;

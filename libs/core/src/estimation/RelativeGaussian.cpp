@@ -29,8 +29,8 @@ RelativeGaussian moverAt(const RelativeGaussian& point, double velocity_std, dou
     return {mean, P};
 }
 
-NewBlock inWorld(const RelativeGaussian& object, const Vector3& robot) {
-    const Matrix2 turn = rotation(robot.z());
+NewBlock inWorld(const RelativeGaussian& object, const Vector3& pose) {
+    const Matrix2 turn = rotation(pose.z());
     const Eigen::Index n = object.mean.size();
     NewBlock out{object.mean, BlockMatrix::Zero(n, 3), object.covariance};
     for (Eigen::Index k = 0; k < n; k += 2) {
@@ -39,7 +39,7 @@ NewBlock inWorld(const RelativeGaussian& object, const Vector3& robot) {
         for (Eigen::Index j = 0; j < n; j += 2)
             out.own.block<2, 2>(k, j) = turn * object.covariance.block<2, 2>(k, j) * turn.transpose();
     }
-    out.mean.head<2>() += robot.head<2>();
+    out.mean.head<2>() += pose.head<2>();
     out.G.topLeftCorner<2, 2>().setIdentity();
     return out;
 }

@@ -80,6 +80,7 @@ ObjectLife::ObjectLife(const ObjectLifeParameters& parameters, Consistency consi
 
 void ObjectLife::clear() {
     tentative_.clear();
+    poses_.clear();
     kinds_.clear();
     duplicates_ = DuplicateWatch(parameters_.landmarks.detection_probability, parameters_.merge_probability);
     lost_.clear();
@@ -108,6 +109,7 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
         admit(belief, objects, confirmed, now, model,
               innovations[static_cast<std::size_t>(confirmed.detection)]);
 
+    if (tentative_.size() > 0) poses_.remember(*belief, now);
     lost_.forgetOld(now);
     for (const BlockId block : belief->bank().landmarksWithinReach())
         objects.place(block, belief->mean(block).head<2>());
@@ -262,13 +264,22 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
 // --- new objects
 // --------------------------------------------------------------------------------------------
 
+std::vector<PastSight> ObjectLife::pastSights(const TentativeObject& object, Stamp now) const {
+    std::vector<PastSight> out;
+    for (const TentativeSight& sight : object.sights) {
+        const std::optional<BlockId> from = sight.at == now ? robot_block : poses_.at(sight.at);
+        if (from) out.push_back({*from, sight.detection, sight.sensor});
+    }
+    return out;
+}
+
 void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed,
                        Stamp now, const TargetModel& model, Innovation& innovation) {
     const TentativeObject& object = confirmed.object;
     const ObjectLifeRecord life{object.kind, object.existence, object.track.movingProbability(), now};
     if (!confirmed.moving) {
         LandmarkRecord& landmark =
-            objects.addLandmark(belief->addLandmark(object.track.asLandmark()), {}, now);
+            objects.addLandmark(belief->addLandmark(pastSights(object, now)), {}, now);
         landmark.seen = object.seen;
         landmark.first_seen = object.first_seen;
         objects.place(landmark.block, belief->mean(landmark.block).head<2>());

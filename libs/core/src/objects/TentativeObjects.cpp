@@ -12,6 +12,8 @@ namespace {
 
 /// Every detection has some source, also where a config expects neither clutter nor new objects.
 constexpr double least_per_scan = 1e-6;
+/// Objects that take longer to confirm lose their first sights.
+constexpr std::size_t most_sights = 20;
 
 /// Density of what a sensor detects that comes from no known object: clutter, and first sights.
 double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor) {
@@ -44,6 +46,11 @@ struct TentativeObjects::Batch {
         return seen.sensors[static_cast<std::size_t>(detection(d).sensor)];
     }
 };
+
+void TentativeObject::keep(const TentativeSight& sight) {
+    if (sights.size() == most_sights) sights.erase(sights.begin());
+    sights.push_back(sight);
+}
 
 TentativeObjects::TentativeObjects(const TentativeParameters& parameters)
     : parameters_(parameters), gates_(parameters.gate_probability) {}
@@ -132,6 +139,7 @@ void TentativeObjects::look(int sensor_number, const Batch& batch, std::vector<i
             lifeOf(object.kind).detection_probability * std::exp(problem.candidate(c).log_likelihood);
         object.existence.detected(density / model.clutter_density[i]);
         object.track.update(batch.detection(detections[i]), sensor.pose);
+        object.keep({batch.now, batch.detection(detections[i]), sensor.pose});
         object.seen += 1;
         object.last_seen = batch.now;
         is_seen[o] = true;
@@ -162,7 +170,13 @@ bool TentativeObjects::start(int detection, const Batch& batch) {
         }
         return RelativeTrack::unknown(point, parameters_.change);
     };
-    objects_.push_back({seen.kind, existence, track(), 1, batch.now, batch.now});
+    objects_.push_back({seen.kind,
+                        existence,
+                        track(),
+                        1,
+                        batch.now,
+                        batch.now,
+                        {{batch.now, seen, batch.sensorOf(detection).pose}}});
     return true;
 }
 

@@ -28,6 +28,8 @@ class BankedImm : public ModalState {
     BlockId addTarget(const RelativeGaussian& target) override;
     void removeTarget(BlockId target) override;
     void widenTarget(BlockId target, const Matrix6& Q) override;
+    using ModalState::addLandmark;
+    BlockId addLandmark(const std::vector<PastSight>& sights) override;
     void mergeLandmarks(BlockId kept, BlockId gone, double deviation) override;
 
     /// Gives the joint state away; this is empty then.

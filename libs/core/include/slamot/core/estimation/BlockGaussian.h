@@ -32,8 +32,8 @@ class BlockGaussian {
     void append(int count);
     void remove(int offset, int count);
 
-    /// Appends a block that depends on the robot by G.
-    void augment(const NewBlock& block);
+    /// Appends a block that depends by G on the pose whose coordinates begin at `from`.
+    void augment(const NewBlock& block, int from);
     void propagate(const BlockLayout& layout, BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,
                    const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Q,
                    const std::vector<Coupling>& couplings);

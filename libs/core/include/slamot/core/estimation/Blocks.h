@@ -6,6 +6,7 @@ namespace slamot {
 
 enum class BlockKind {
     robot,     ///< [x y theta]
+    pose,      ///< [x y theta] of the robot at another time; theta near the same value in all modes, not wrapped
     target,    ///< [px py vx vy ax ay]
     landmark,  ///< [x y]
     extra      ///< anything that does not turn with the world: calibration, delays
@@ -31,12 +32,13 @@ struct Coupling {
     BlockMatrix F;
 };
 
-/// A block to be added: it depends on the robot by G and has covariance `own` of its own.
+/// A block to be added: it depends on the robot, or on another pose, by G and has covariance `own` of its own.
 struct NewBlock {
     BlockVector mean;
-    /// d block / d robot, size x 3.
+    /// d block / d pose, size x 3.
     BlockMatrix G;
     BlockMatrix own;
+    BlockId from = robot_block;
 };
 
 }  // namespace slamot

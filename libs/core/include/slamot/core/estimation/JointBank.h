@@ -60,8 +60,8 @@ class JointBank {
     virtual JointMode& mode(int index) = 0;
     virtual const JointMode& mode(int index) const = 0;
 
-    /// A new block, with the values of each mode in order: P_n,: = G P_R,:, P_nn = G P_RR G^t + own. Paper 1,
-    /// eq. 10-24.
+    /// A new block, with the values of each mode in order: P_n,: = G P_R,:, P_nn = G P_RR G^t + own, R the robot
+    /// or another pose. Paper 1, eq. 10-24.
     virtual BlockId augment(BlockKind kind, const std::vector<NewBlock>& by_mode) = 0;
     /// The same values in all modes.
     BlockId augment(BlockKind kind, const NewBlock& block);

@@ -2,6 +2,7 @@
 // Robot, movers and landmarks with the movers' modes: what a joint filter is made of. One way to keep the
 // modes is exact (JointImm; with one mode it is the EKF), one is scalable (BankedImm).
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slamot/core/data/Estimate.h"
@@ -44,6 +45,13 @@ struct TargetBelief {
     Eigen::VectorXd mode_probabilities;
 };
 
+/// A detection from a pose that is part of the joint state.
+struct PastSight {
+    BlockId from;
+    RangeBearingDetection detection;
+    Pose2 sensor;
+};
+
 /// As a JointView it shows the joint distribution over all modes.
 class ModalState : public JointView {
   public:
@@ -65,6 +73,11 @@ class ModalState : public JointView {
     virtual void widenTarget(BlockId target, const Matrix6& Q) = 0;
 
     BlockId addLandmark(const RelativeGaussian& landmark);
+    /// A landmark of which there are several sights, each from the robot or from a remembered pose: as if it had
+    /// been there at the first. At least one.
+    virtual BlockId addLandmark(const std::vector<PastSight>& sights);
+    /// Where the robot is now, as a block; `again`: a block of this kind, which forgets what it was.
+    BlockId rememberPose(std::optional<BlockId> again = std::nullopt);
     void removeLandmark(BlockId landmark) { bank_->remove(landmark); }
     /// Two landmarks within reach turn out to be one: conditions on their positions being equal up to
     /// `deviation` [m] in each coordinate, and lets go of `gone`.

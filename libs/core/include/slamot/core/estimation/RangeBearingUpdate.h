@@ -27,14 +27,15 @@ struct ExpectedSight {
     Linearisation with(const RangeBearingDetection& seen) const;
 };
 
-/// Linearises the sight of the object in `block`, whose position leads it, at the present mean.
+/// Linearises the sight of the object in `block`, whose position leads it, from the robot or from another pose,
+/// at the present mean.
 ExpectedSight expectedSight(const JointView& state, BlockId block, const Pose2& sensor,
-                            Consistency consistency);
+                            Consistency consistency, BlockId from = robot_block);
 
 /// The same, with the detection.
 inline Linearisation linearise(const JointView& state, BlockId block, const RangeBearingDetection& detection,
-                               const Pose2& sensor, Consistency consistency) {
-    return expectedSight(state, block, sensor, consistency).with(detection);
+                               const Pose2& sensor, Consistency consistency, BlockId from = robot_block) {
+    return expectedSight(state, block, sensor, consistency, from).with(detection);
 }
 
 }  // namespace slamot

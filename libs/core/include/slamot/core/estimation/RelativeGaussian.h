@@ -23,8 +23,8 @@ RelativeGaussian firstSight(const RangeBearingDetection& detection, const Pose2&
 /// [m/s^2].
 RelativeGaussian moverAt(const RelativeGaussian& point, double velocity_std, double acceleration_std);
 
-/// In the world, from a robot at [x y theta] (paper 1, eq. 8-9 and 13-17): G is its Jacobian with respect to
-/// the robot.
-NewBlock inWorld(const RelativeGaussian& object, const Vector3& robot);
+/// In the world, from a pose [x y theta] (paper 1, eq. 8-9 and 13-17): G is its Jacobian with respect to
+/// the pose.
+NewBlock inWorld(const RelativeGaussian& object, const Vector3& pose);
 
 }  // namespace slamot

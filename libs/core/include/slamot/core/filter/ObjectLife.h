@@ -6,6 +6,7 @@
 #include "slamot/core/filter/KindWatch.h"
 #include "slamot/core/filter/ModalBelief.h"
 #include "slamot/core/filter/ObjectAssociation.h"
+#include "slamot/core/filter/PoseMemory.h"
 #include "slamot/core/objects/DuplicateWatch.h"
 #include "slamot/core/objects/LostTracks.h"
 #include "slamot/core/objects/TentativeObjects.h"
@@ -74,11 +75,15 @@ class ObjectLife {
     void admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed, Stamp now,
                const TargetModel& model, Innovation& innovation);
 
+    /// What the joint state can still take in of an object's sights.
+    std::vector<PastSight> pastSights(const TentativeObject& object, Stamp now) const;
+
     ObjectLifeParameters parameters_;
     Consistency consistency_;
     double velocity_std_, acceleration_std_;
     double pair_gate_;
     TentativeObjects tentative_;
+    PoseMemory poses_;
     KindWatch kinds_;
     DuplicateWatch duplicates_;
     LostTracks lost_;

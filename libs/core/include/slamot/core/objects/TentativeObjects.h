@@ -11,12 +11,22 @@
 
 namespace slamot {
 
+/// A detection of an object, to be taken in when the object is confirmed.
+struct TentativeSight {
+    Stamp at;
+    RangeBearingDetection detection;
+    Pose2 sensor;
+};
+
 struct TentativeObject {
     ObjectKind kind;  ///< of its detections; unknown: P(moving) decides what it becomes
     Existence existence;
     RelativeTrack track;
     int seen = 1;  ///< detections
     Stamp first_seen, last_seen;
+    std::vector<TentativeSight> sights;  ///< the latest, oldest first
+
+    void keep(const TentativeSight& sight);
 };
 
 /// One that is confirmed, by a detection of the present batch.
