@@ -129,8 +129,15 @@ void JointFilter::markSeen(const Innovation& innovation, Stamp now) {
 }
 
 void JointFilter::holdFloor(BlockId target) {
+    holdFloor(target, belief_->covariance(target, target).topLeftCorner<2, 2>());
+    // The scalable form's banks, which are reported, may be surer than the joint state, which detections are
+    // compared with.
+    if (!parameters_.imm.modes.empty())
+        holdFloor(target, belief_->target(target).covariance.topLeftCorner<2, 2>());
+}
+
+void JointFilter::holdFloor(BlockId target, const Matrix2& P) {
     const double floor = parameters_.target_position_floor * parameters_.target_position_floor;
-    const Matrix2 P = belief_->covariance(target, target).topLeftCorner<2, 2>();
     const Eigen::SelfAdjointEigenSolver<Matrix2> axes(P);
     if (axes.eigenvalues()(0) >= floor) return;
     const Vector2 missing = (floor - axes.eigenvalues().array()).max(0);
