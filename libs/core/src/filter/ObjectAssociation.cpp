@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "slamot/core/association/DetectionModel.h"
 #include "slamot/core/objects/FieldOfView.h"
+#include "slamot/core/objects/TentativeObjects.h"
 
 namespace slamot {
 namespace {
@@ -81,8 +81,8 @@ std::vector<double> ObjectAssociation::clutterDensities(const RangeBearingSet& s
     std::vector<double> out;
     for (const RangeBearingDetection& detection : seen.detections) {
         const LifeParameters& life = detection.kind == ObjectKind::mover ? mover_life_ : landmark_life_;
-        out.push_back(clutterDensity(life.clutter_per_scan + life.new_per_scan,
-                                     seen.sensors[static_cast<std::size_t>(detection.sensor)]));
+        out.push_back(
+            unexplainedDensity(life, seen.sensors[static_cast<std::size_t>(detection.sensor)]));
     }
     return out;
 }

@@ -100,7 +100,8 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
     judge(belief, objects, batch, sights, now);
     changeKinds(belief, objects, batch, sights, now);
     merge(belief, objects);
-    removeLost(belief, objects, now);
+    removeLost(belief, objects, batch, now);
+    lost_.forgetOld(now);
 
     for (const int d : batch.unexplained)
         innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
@@ -110,7 +111,6 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
               innovations[static_cast<std::size_t>(confirmed.detection)]);
 
     if (tentative_.size() > 0) poses_.remember(*belief, now);
-    lost_.forgetOld(now);
     for (const BlockId block : belief->bank().landmarksWithinReach())
         objects.place(block, belief->mean(block).head<2>());
 }
@@ -143,13 +143,13 @@ void ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
         life.existence.missed(parameters.detection_probability);
 }
 
-void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, Stamp now) {
-    std::vector<LandmarkRecord> landmarks;
-    for (const LandmarkRecord& landmark : objects.landmarks())
-        if (landmark.life && landmark.life->looked == now &&
-            landmark.life->existence.lost(parameters_.landmarks))
-            landmarks.push_back(landmark);
-    for (const LandmarkRecord& landmark : landmarks) removeLandmark(belief, objects, landmark);
+void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                            Stamp now) {
+    for (const BlockId block : batch.landmarks) {
+        const LandmarkRecord* landmark = objects.landmarkOf(block);  // none: it is a mover now, or merged
+        if (landmark && landmark->life && landmark->life->existence.lost(parameters_.landmarks))
+            removeLandmark(belief, objects, *landmark);
+    }
     const std::vector<TrackRecord> tracks = objects.tracks();
     for (const TrackRecord& track : tracks) {
         if (!track.life || !track.life->existence.lost(parameters_.movers)) continue;
@@ -208,11 +208,15 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
 }
 
 void ObjectLife::merge(ModalBelief& belief, ObjectCatalogue& objects) {
-    for (const auto& [kept, gone] : duplicates_.merged()) {
-        LandmarkRecord* first = objects.landmarkOf(kept);
-        const LandmarkRecord* second = objects.landmarkOf(gone);
-        if (!first || !second || !second->life) continue;  // merged with a third, or named by the log
+    for (auto [kept, gone] : duplicates_.merged()) {
+        LandmarkRecord *first = objects.landmarkOf(kept), *second = objects.landmarkOf(gone);
+        if (!first || !second) continue;  // merged with a third
+        if (!second->life) {              // named by the log: that one stays
+            std::swap(kept, gone);
+            std::swap(first, second);
+        }
         first->seen += second->seen;
+        first->first_seen = std::min(first->first_seen, second->first_seen);
         first->last_seen = std::max(first->last_seen, second->last_seen);
         const LandmarkId second_id = second->id;
         duplicates_.forget(gone);
@@ -241,7 +245,7 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
         // Its position begins anew with this detection: what came before was of another kind.
         RelativeGaussian point = firstSight(detection, sensor, consistency_);
         const ObjectLifeRecord going_on = *life;
-        const std::int64_t seen = landmark ? landmark->seen : 1;
+        const Stamp first_seen = landmark ? landmark->first_seen : track->first_seen;
         if (landmark) {
             RelativeGaussian mover = kinds_.asMover(block);
             mover.mean.head<2>() = point.mean;
@@ -249,12 +253,15 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
             mover.covariance.leftCols<2>().setZero();
             mover.covariance.topLeftCorner<2, 2>() = point.covariance;
             removeLandmark(belief, objects, *landmark);
-            if (const auto target = belief.addTarget(mover))
-                objects.giveLife(objects.addTrack(*target, {}, now), going_on);
+            const std::optional<BlockId> target = belief.addTarget(mover);
+            if (!target) continue;
+            TrackRecord& started = objects.addTrack(*target, {}, now);
+            started.first_seen = first_seen;
+            objects.giveLife(started, going_on);
         } else {
             removeTrack(belief, objects, *track);
             LandmarkRecord& stopped = objects.addLandmark(belief->addLandmark(point), {}, now);
-            stopped.seen = seen;
+            stopped.first_seen = first_seen;
             objects.place(stopped.block, belief->mean(stopped.block).head<2>());
             objects.giveLife(stopped, going_on);
         }

@@ -88,6 +88,8 @@ class JointFilter {
 
   private:
     void setModels(Stamp stamp);
+    /// Of movers that have no modes: not confirmed yet, or lost. Whatever the order of the modes.
+    const TargetModel& simplestModel() const;
     void endUnseenTracks(Stamp now);
     UpdateReport updateByIdentity(const RangeBearingSet& seen, Stamp now);
     UpdateReport updateByAssociation(const RangeBearingSet& seen, Stamp now);
@@ -95,6 +97,8 @@ class JointFilter {
                 Stamp now);
     void markSeen(const Innovation& innovation, Stamp now);
     void holdFloor(BlockId target);
+    /// P: what is believed of its position.
+    void holdFloor(BlockId target, const Matrix2& P);
     /// Objects whose identity is new: movers, then landmarks.
     void startNamed(const RangeBearingSet& seen, Stamp now, std::vector<Innovation>& innovations);
     void start(const RangeBearingSet& seen, Stamp now, Innovation& innovation);

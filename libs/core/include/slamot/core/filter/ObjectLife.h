@@ -69,7 +69,7 @@ class ObjectLife {
     /// Landmarks that move, and movers that stand still.
     void changeKinds(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
                      const Sights& sights, Stamp now);
-    void removeLost(ModalBelief& belief, ObjectCatalogue& objects, Stamp now);
+    void removeLost(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch, Stamp now);
     void removeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark);
     void removeTrack(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track);
     void admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed, Stamp now,
