@@ -137,6 +137,8 @@ void ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
         kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
     life.existence.pass(secondsBetween(life.looked, now), parameters);
     life.looked = now;
+    const auto& in_doubt = batch.in_doubt;
+    if (std::find(in_doubt.begin(), in_doubt.end(), block) != in_doubt.end()) return;
     if (const auto sight = sights.find(block); sight != sights.end())
         life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
     else if (surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))
