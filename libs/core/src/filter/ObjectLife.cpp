@@ -101,6 +101,7 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
     changeKinds(belief, objects, batch, sights, now);
     merge(belief, objects);
     removeLost(belief, objects, batch, now);
+    last_scan_ = now;
     lost_.forgetOld(now);
 
     for (const int d : batch.unexplained)
@@ -137,6 +138,9 @@ void ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
         kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
     life.existence.pass(secondsBetween(life.looked, now), parameters);
     life.looked = now;
+    // What may move leaves the place where it stood. Out of view nothing is held against it.
+    if (kind == ObjectKind::landmark && life.seen_as == ObjectKind::unknown)
+        life.existence.mayLeave(secondsBetween(last_scan_, now), parameters_.change.start_every);
     if (const auto sight = sights.find(block); sight != sights.end())
         life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
     else if (surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))

@@ -87,6 +87,7 @@ class ObjectLife {
     KindWatch kinds_;
     DuplicateWatch duplicates_;
     LostTracks lost_;
+    Stamp last_scan_;  ///< anything before the first
 };
 
 }  // namespace slamot
