@@ -205,6 +205,42 @@ AssociationParameters jpda() {
     return out;
 }
 
+TEST(BatchAssociationTest, OnePairInAWideGateIsLeftUndecidedTwoThatFitTogetherAreNot) {
+    for (const AssociationParameters& method : allMethods()) {
+        SCOPED_TRACE(nameOf(method));
+        // A robot that comes back in doubt by 3 m sees something 6 m before the one landmark of its map:
+        // inside the gate (NIS about 4), and as well something new. It is neither taken nor started, nor is
+        // the landmark missed.
+        BatchScene alone({3, 3, 0.05});
+        alone.clutter = 0.005;
+        alone.landmark({15, 0});
+        alone.detection(landmark, {9, 0});
+        const BatchAssociation open = alone.associate(method);
+        EXPECT_EQ(objectsOf(open), (std::vector<int>{-1}));
+        EXPECT_EQ(open.may_be_new, (std::vector<bool>{false}));
+        EXPECT_EQ(open.in_doubt, (std::vector<bool>{true}));
+
+        // Two landmarks shifted alike can hardly be two others.
+        BatchScene two({3, 3, 0.05});
+        two.clutter = 0.005;
+        two.landmark({15, 0});
+        two.landmark({12, 7});
+        two.detection(landmark, {13, 1});
+        two.detection(landmark, {10, 8});
+        const BatchAssociation both = two.associate(method);
+        EXPECT_EQ(objectsOf(both), (std::vector<int>{0, 1}));
+        EXPECT_EQ(both.in_doubt, (std::vector<bool>{false, false}));
+
+        // A robot that knows where it is needs one alone.
+        BatchScene sure;
+        sure.landmark({15, 0});
+        sure.detection(landmark, {15, 0}, {0.3, 0});  // NIS about 4 too
+        const BatchAssociation taken = sure.associate(method);
+        EXPECT_EQ(objectsOf(taken), (std::vector<int>{0}));
+        EXPECT_EQ(taken.in_doubt, (std::vector<bool>{false}));
+    }
+}
+
 TEST(BatchAssociationTest, JpdaWeighsTwoMoversAndTwoDetections) {
     // Robot known, movers 1 m apart in 10 m, uncertain by 0.5 m, both detections between them.
     BatchScene scene;

@@ -1,5 +1,6 @@
 #include "slamot/core/association/BatchAssociation.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -100,6 +101,8 @@ class Batch {
     }
     bool isMover(const Candidate& c) const { return objectOf(c).kind == ObjectKind::mover; }
     Pairing landmarkPairing(const Part& part, JointInnovations& innovations, PairGates& gates) const;
+    std::vector<int> decided(std::vector<int> pairs, const Part& part, JointInnovations& innovations) const;
+    double evidence(const Candidate& pair, const InnovationFactor& given) const;
     void accept(const Candidate& candidate, int in_whole, BatchAssociation& out);
     void mergeMovers(const Part& part, InnovationFactor& given, BatchAssociation& out);
 
@@ -134,9 +137,56 @@ void Batch::landmarks(int sensor, PairGates& gates, BatchAssociation& out) {
     });
     PartInnovations innovations(innovations_, candidates.in_whole);
     const Pairing pairing = landmarkPairing(candidates, innovations, gates);
+    std::vector<int> pairs;
     for (const int c : pairing.candidate_of_detection)
-        if (c >= 0 && !isMover(candidates.problem.candidate(c)))
-            accept(candidates.problem.candidate(c), candidates.in_whole[static_cast<std::size_t>(c)], out);
+        if (c >= 0 && !isMover(candidates.problem.candidate(c))) pairs.push_back(c);
+    const std::vector<int> sure = decided(pairs, candidates, innovations);
+    for (const int c : sure)
+        accept(candidates.problem.candidate(c), candidates.in_whole[static_cast<std::size_t>(c)], out);
+    for (const int c : pairs)
+        if (std::find(sure.begin(), sure.end(), c) == sure.end())
+            out.in_doubt[static_cast<std::size_t>(candidates.problem.candidate(c).object)] = true;
+}
+
+/// log of the likelihood ratio of the last pair, given those before it, over what it takes. A gate that holds
+/// many places which the sensor can tell apart, sqrt(|S| / |R|), asks for as much more evidence: some of what
+/// was never seen before fits into a wide gate, and taking it for what is sought moves robot and map that
+/// far.
+double Batch::evidence(const Candidate& pair, const InnovationFactor& given) const {
+    const double ratio = std::log(objectOf(pair).detection_probability) + given.logConditional() -
+                         std::log(model_.clutter_density[static_cast<std::size_t>(pair.detection)]);
+    const double places = 0.5 * std::log(given.conditional().covariance.determinant() /
+                                         detectionOf(pair).covariance.determinant());
+    return ratio - places;
+}
+
+std::vector<int> Batch::decided(std::vector<int> open, const Part& candidates,
+                                JointInnovations& innovations) const {
+    const double p = parameters_.decide_probability, enough = std::log(p) - std::log1p(-p);
+    InnovationFactor given(innovations, static_cast<int>(open.size()));
+    std::vector<int> sure;
+    // One by one, in the light of those that are sure already ...
+    for (bool more = true; more;) {
+        more = false;
+        std::vector<int> rest;
+        for (const int c : open) {
+            const bool possible = given.push(c);
+            if (possible && evidence(candidates.problem.candidate(c), given) >= enough) {
+                sure.push_back(c);
+                more = true;
+                continue;
+            }
+            if (possible) given.pop();
+            rest.push_back(c);
+        }
+        open = std::move(rest);
+    }
+    // ... then the others together: several that fit in one way bear each other out.
+    double together = 0;
+    for (const int c : open)
+        if (given.push(c)) together += evidence(candidates.problem.candidate(c), given);
+    if (!open.empty() && together >= enough) sure.insert(sure.end(), open.begin(), open.end());
+    return sure;
 }
 
 Pairing Batch::landmarkPairing(const Part& candidates, JointInnovations& innovations,
@@ -260,6 +310,11 @@ ParameterTable describe(AssociationParameters& p, const std::string& name) {
               "Part of an object's detections that lie inside its gate.")
         .real("separation_probability", p.separation_probability, "-", Interval::openProbability(),
               "A detection inside this gate of an object that is not seen otherwise starts no new object.")
+        .real(
+            "decide_probability", p.decide_probability, "-", Interval::openProbability(),
+            "Of a pair with a landmark, against something new or false in a gate as wide as this one; below "
+            "it the detection is left undecided: it corrects nothing and starts nothing, and the landmark "
+            "does not count as missed.")
         .integer("node_budget", p.node_budget, Interval::between(1, 1000000),
                  "Extensions of hypotheses that jcbb tries at most; beyond, the best met so far is taken, at "
                  "least as good as the sequential one.")
@@ -280,6 +335,7 @@ BatchAssociation BatchAssociator::associate(const JointView& state, const std::v
     BatchAssociation out;
     out.of_detection.resize(seen.detections.size());
     out.may_be_new.resize(seen.detections.size(), false);
+    out.in_doubt.resize(objects.size(), false);
     out.merged = seen.detections;
     out.soft = parameters_.movers == MoverAssociation::jpda;
     for (const int d : detections) {

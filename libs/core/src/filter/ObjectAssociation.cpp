@@ -120,6 +120,8 @@ AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue
     pair(objects, visible, batch, found, innovations);
     for (const int d : nameless)
         if (found.of_detection[static_cast<std::size_t>(d)].object < 0) batch.unexplained.push_back(d);
+    for (std::size_t o = 0; o < visible.size(); ++o)
+        if (found.in_doubt[o]) batch.in_doubt.push_back(visible[o].block);
     batch.may_be_new = std::move(found.may_be_new);
     if (found.soft) batch.used.detections = std::move(found.merged);
     return batch;

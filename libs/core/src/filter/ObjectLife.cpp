@@ -23,6 +23,11 @@ const Pose2& sensorOf(const AssociatedBatch& batch, const RangeBearingDetection&
     return batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
 }
 
+/// Neither seen nor missed.
+bool isInDoubt(const AssociatedBatch& batch, BlockId block) {
+    return std::find(batch.in_doubt.begin(), batch.in_doubt.end(), block) != batch.in_doubt.end();
+}
+
 bool surelySeenByAny(const GatheredView& view, BlockId block, ObjectKind kind, const RangeBearingSet& seen,
                      Consistency consistency) {
     return std::any_of(seen.sensors.begin(), seen.sensors.end(), [&](const RangeBearingSensor& sensor) {
@@ -146,6 +151,7 @@ bool ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
     // What may move leaves the place where it stood. Out of view nothing is held against it.
     if (kind == ObjectKind::landmark && life.seen_as == ObjectKind::unknown)
         life.existence.mayLeave(secondsBetween(last_scan_, now), parameters_.change.start_every);
+    if (isInDoubt(batch, block)) return true;
     if (const auto sight = sights.find(block); sight != sights.end()) {
         life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
         return true;
@@ -202,6 +208,7 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
             const BlockId b = batch.landmarks[j];
             const Vector2 apart = view.mean(a) - view.mean(b);
             if (apart.norm() > farthest_duplicate || !(living(a) || living(b))) continue;
+            if (isInDoubt(batch, a) || isInDoubt(batch, b)) continue;
             const Matrix2 P =
                 view.covariance(a, a) + view.covariance(b, b) - view.covariance(a, b) - view.covariance(b, a);
             if (apart.dot(P.llt().solve(apart)) > pair_gate_) {

@@ -18,6 +18,8 @@ struct AssociationParameters {
     double gate_probability = 0.999;
     /// A detection within this gate of an object that is not seen otherwise starts no new one.
     double separation_probability = 1 - 1e-6;
+    /// Of a pair with a landmark, against something new or false; below it the detection is left undecided.
+    double decide_probability = 0.5;
     int node_budget = 1000;   ///< of joint compatibility branch and bound
     int state_budget = 2000;  ///< of the exact sums of JPDA
 };
@@ -44,6 +46,8 @@ struct BatchAssociation {
     /// separation gate it lies are paired with others of its sensor: it may be of something new. Never where
     /// the method of a kind that it may be of is `known`.
     std::vector<bool> may_be_new;
+    /// By number of object: a landmark whose pair is undecided; it was neither seen nor missed.
+    std::vector<bool> in_doubt;
 
     /// JPDA: what a mover is to be updated with in place of its detection, weighed over all that its gate
     /// holds, and not to be gated again (KnownObjects::Sight::weighed); by number of detection, as far as

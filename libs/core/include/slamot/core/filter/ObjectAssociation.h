@@ -16,6 +16,7 @@ struct AssociatedBatch {
     std::vector<BlockId> landmarks;   ///< that may be in some sensor's view
     std::vector<int> unexplained;     ///< detections without identity that no object explains
     std::vector<bool> may_be_new;     ///< by number of detection
+    std::vector<BlockId> in_doubt;    ///< landmarks whose pairs are undecided
     std::vector<double> likelihood_ratio;  ///< by number of detection: P_D N(nu; 0, S) / c of its pair
 };
 
