@@ -15,8 +15,8 @@ namespace slamot::test {
 struct HiddenWorldOptions {
     std::uint64_t seed = 1;
     int landmarks = 25, movers = 2;
-    double radius = 8, range = 10;    ///< [m] of the robot's circle and of its sensor
-    int steps = 240;                  ///< of 0.25 s and 0.25 m
+    double radius = 8, range = 10;  ///< [m] of the robot's circle and of its sensor
+    int steps = 240;                ///< of 0.25 s and 0.25 m
     double detection_probability = 0.9;
     double landmark_clutter = 4, mover_clutter = 1;  ///< per scan
     bool kinds_known = true;
@@ -29,7 +29,7 @@ class HiddenWorld {
   public:
     struct Step {
         OdometryIncrement odometry;
-        DetectionSet hidden;   ///< identities taken away
+        DetectionSet hidden;    ///< identities taken away
         DetectionSet labelled;  ///< with them; clutter has none
         Pose2 robot;
         std::vector<Vector2> movers;
@@ -39,7 +39,8 @@ class HiddenWorld {
         : options_(options), random_(options.seed, RandomPurpose::test) {
         while (static_cast<int>(landmarks.size()) < options.landmarks) {
             const double inner = options.radius - 5, outer = options.radius + 5;
-            const double radius = std::sqrt(random_.uniform(inner * inner, outer * outer)), angle = random_.uniform(-pi, pi);
+            const double radius = std::sqrt(random_.uniform(inner * inner, outer * outer)),
+                         angle = random_.uniform(-pi, pi);
             const Vector2 at = radius * Vector2(std::cos(angle), std::sin(angle));
             bool free = true;
             for (const Vector2& other : landmarks) free = free && (other - at).norm() >= 2;
@@ -110,10 +111,9 @@ class HiddenWorld {
         RangeBearingSensor sensor;
         sensor.max_range = options_.range;
         for (const ObjectKind kind : {ObjectKind::landmark, ObjectKind::mover})
-            for (const Vector2& z :
-                 drawClutter(sensor,
-                             kind == ObjectKind::mover ? options_.mover_clutter : options_.landmark_clutter,
-                             random_)) {
+            for (const Vector2& z : drawClutter(
+                     sensor, kind == ObjectKind::mover ? options_.mover_clutter : options_.landmark_clutter,
+                     random_)) {
                 RangeBearingDetection d;
                 d.range = z.x();
                 d.bearing = z.y();

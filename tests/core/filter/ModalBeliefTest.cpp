@@ -1,11 +1,10 @@
-#include "slamot/core/filter/ModalBelief.h"
-
 #include <gtest/gtest.h>
 
 #include "../estimation/ImmScenes.h"
 #include "slamot/core/estimation/BankedImm.h"
 #include "slamot/core/estimation/DecoupledImm.h"
 #include "slamot/core/filter/JointFilter.h"
+#include "slamot/core/filter/ModalBelief.h"
 #include "support/Expect.h"
 
 namespace slamot {

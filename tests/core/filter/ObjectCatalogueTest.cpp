@@ -1,8 +1,8 @@
-#include "slamot/core/filter/ObjectCatalogue.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "slamot/core/filter/ObjectCatalogue.h"
 
 namespace slamot {
 namespace {

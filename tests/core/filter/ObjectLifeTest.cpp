@@ -1,5 +1,3 @@
-#include "slamot/core/filter/ObjectLife.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +6,7 @@
 
 #include "../estimation/ImmScenes.h"
 #include "StandingRobot.h"
+#include "slamot/core/filter/ObjectLife.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -30,7 +29,8 @@ TEST(ObjectLifeTest, WhatCameThriceAndIsSeenNoMoreIsLetGo) {
     StandingRobot robot(parameters);
     for (int k = 0; k < 3; ++k) robot.look({{{5, 2}, landmark}});
     ASSERT_EQ(robot.filter.landmarkCount(), 1);
-    // At first sight 0.1 / 1.1; let go at a hundredth of that. A miss is 0.1 times as likely of what is there.
+    // At first sight 0.1 / 1.1; let go at a hundredth of that. A miss is 0.1 times as likely of what is
+    // there.
     const double least = 0.01 * 0.1 / 1.1;
     double before = robot.filter.landmarks()[0].existence;
     int misses = 0;
@@ -122,8 +122,7 @@ class Life {
     }
 
     LandmarkId add(const Vector2& at, double deviation, SourceId named = {}) {
-        const BlockId block =
-            belief->addLandmark({at, Matrix2(deviation * deviation * Matrix2::Identity())});
+        const BlockId block = belief->addLandmark({at, Matrix2(deviation * deviation * Matrix2::Identity())});
         LandmarkRecord& record = objects.addLandmark(block, named, now);
         if (!named.valid()) {
             ObjectLifeRecord existing{landmark, Existence(parameters.life.landmarks), 0, now};
@@ -297,8 +296,7 @@ TEST(ObjectLifeTest, NoMoverIsSurerThanItsFloor) {
                 for (int k = 0; k < 60; ++k) robot.look({{{2, 1}, mover}});
                 ASSERT_EQ(robot.filter.tracks().size(), 1u);
                 const Matrix2 P = robot.filter.tracks()[0].covariance.topLeftCorner<2, 2>();
-                const double least =
-                    std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(P).eigenvalues()(0));
+                const double least = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2>(P).eigenvalues()(0));
                 if (floor > 0)
                     EXPECT_GE(least, floor * (1 - 1e-12));
                 else

@@ -1,6 +1,4 @@
 // Landmarks taken in late, from the poses that saw them first, against filters that had them from the start.
-#include "slamot/core/filter/PoseMemory.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -12,6 +10,7 @@
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/DecoupledImm.h"
 #include "slamot/core/estimation/DenseJointBank.h"
+#include "slamot/core/filter/PoseMemory.h"
 #include "support/Expect.h"
 
 namespace slamot {
@@ -66,8 +65,12 @@ class LateLandmark {
           // Modes that are equal: what mixing makes of different ones is no linearisation error.
           modes_(test::immModes("a:cv:0.3, b:cv:0.3")) {
         for (TargetMode& mode : modes_.modes) mode.model.noise_std *= assumed_;
-        const auto settings = std::make_shared<const ModalSettings>(
-            ModalSettings{increments(assumed_), {}, chainOf(modes_), initialProbabilities(modes_), ModeLikelihood::conditional});
+        const auto settings =
+            std::make_shared<const ModalSettings>(ModalSettings{increments(assumed_),
+                                                                {},
+                                                                chainOf(modes_),
+                                                                initialProbabilities(modes_),
+                                                                ModeLikelihood::conditional});
         const Matrix3 P = assumed_ * assumed_ * Vector3(0.04, 0.09, 0.01).asDiagonal().toDenseMatrix();
         std::unique_ptr<JointBank> bank;
         if (c.engine == Engine::dense)
@@ -85,8 +88,8 @@ class LateLandmark {
                 belief = std::make_unique<BankedImm>(settings, std::move(*exact));
         }
         for (const Vector2& place : places_) landmarks.push_back(add(look(place, ObjectKind::landmark)));
-        target = belief->addTarget(moverAt(
-            firstSight(look({5, -5}, ObjectKind::mover), {}, consistency_), 2 * assumed_, assumed_));
+        target = belief->addTarget(
+            moverAt(firstSight(look({5, -5}, ObjectKind::mover), {}, consistency_), 2 * assumed_, assumed_));
         for (int k = 1; k <= 8; ++k) step(k);
     }
 
@@ -142,8 +145,7 @@ class LateLandmark {
             measured.push_back(block);
         };
         for (std::size_t i = 0; i < places_.size(); ++i)
-            if (i != 2 || k % 3 == 0)
-                know(known.landmarks, landmarks[i], places_[i], ObjectKind::landmark);
+            if (i != 2 || k % 3 == 0) know(known.landmarks, landmarks[i], places_[i], ObjectKind::landmark);
         know(known.targets, target, {5, -5}, ObjectKind::mover);
         const bool fourth = k >= 4;
         const RangeBearingDetection sight = look({-2, 6}, ObjectKind::landmark);
@@ -163,7 +165,8 @@ class LateLandmark {
         if (late_) poses.remember(*belief, at(k));
         // The map may be put away at any time; poses stay.
         if (dynamic_cast<CompressedJointBank*>(bank_) && late_ && k != 8)
-            bank_->commit({landmarks[2]}, Eigen::VectorXd::Constant(bank_->modeCount(), 1.0 / bank_->modeCount()));
+            bank_->commit({landmarks[2]},
+                          Eigen::VectorXd::Constant(bank_->modeCount(), 1.0 / bank_->modeCount()));
     }
 
     struct Sight {
@@ -174,7 +177,8 @@ class LateLandmark {
     void takeIn(int now) {
         std::vector<PastSight> past;
         for (const Sight& s : sights_)
-            past.push_back({s.when == at(now) ? robot_block : poses.at(s.when).value(), s.detection, s.sensor});
+            past.push_back(
+                {s.when == at(now) ? robot_block : poses.at(s.when).value(), s.detection, s.sensor});
         landmarks.push_back(belief->addLandmark(past));
     }
 
@@ -191,8 +195,8 @@ class LateLandmark {
 
 TEST(PoseMemoryTest, NothingIsLostByTakingALandmarkInLate) {
     // Detections without noise leave every mean where it is, so both linearise at the truth: the same linear
-    // problem, solved in another order, whatever the noise that is assumed. Only the classic core: second-order
-    // terms move the means.
+    // problem, solved in another order, whatever the noise that is assumed. Only the classic core:
+    // second-order terms move the means.
     forAll({Consistency::classic}, [](const Case& c) {
         const LateLandmark late(c, 0, true);
         const LateLandmark from_the_start({c.form, Engine::dense, c.consistency}, 0, false);
@@ -204,7 +208,8 @@ TEST(PoseMemoryTest, NothingIsLostByTakingALandmarkInLate) {
 }
 
 TEST(PoseMemoryTest, WithNoiseTheDifferenceIsLinearisationError) {
-    // What linearisation neglects is of second order: in standard deviations it is in proportion to the noise.
+    // What linearisation neglects is of second order: in standard deviations it is in proportion to the
+    // noise.
     forAll({Consistency::classic, Consistency::invariant}, [](const Case& c) {
         for (const double noise : {1.0, 0.01}) {
             const LateLandmark late(c, noise, true);
@@ -235,10 +240,11 @@ TEST(PoseMemoryTest, AForgottenSightIsNone) {
 class AcrossPi {
   public:
     AcrossPi(Engine engine, Consistency consistency) : modes_(test::immModes("cv:cv:0.3, ca:ca:2")) {
-        const auto settings = std::make_shared<const ModalSettings>(
-            ModalSettings{increments(), {}, chainOf(modes_), initialProbabilities(modes_), ModeLikelihood::conditional});
+        const auto settings = std::make_shared<const ModalSettings>(ModalSettings{
+            increments(), {}, chainOf(modes_), initialProbabilities(modes_), ModeLikelihood::conditional});
         const Vector3 pose(1, -2, pi - 0.01);
-        const Matrix3 P = (Matrix3() << 0.04, 0.01, 0.002, 0.01, 0.09, -0.003, 0.002, -0.003, 0.01).finished();
+        const Matrix3 P =
+            (Matrix3() << 0.04, 0.01, 0.002, 0.01, 0.09, -0.003, 0.002, -0.003, 0.01).finished();
         std::unique_ptr<JointBank> bank;
         if (engine == Engine::dense)
             bank = std::make_unique<DenseJointBank>(pose, P, consistency);
@@ -255,9 +261,7 @@ class AcrossPi {
         robot.z() = wrapAngle(robot.z());
         bank_->mode(1).propagate(robot_block, robot, Matrix3::Identity(), Matrix3::Zero());
     }
-    void move() {
-        belief->predict(test::odometry(0, 0.1, {0.4, 0, 0.1}), modelsOf(modes_));
-    }
+    void move() { belief->predict(test::odometry(0, 0.1, {0.4, 0, 0.1}), modelsOf(modes_)); }
 
     std::unique_ptr<JointImm> belief;
     BlockId landmark;

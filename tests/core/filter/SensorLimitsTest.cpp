@@ -1,6 +1,6 @@
-#include "slamot/core/filter/SensorLimits.h"
-
 #include <gtest/gtest.h>
+
+#include "slamot/core/filter/SensorLimits.h"
 
 namespace slamot {
 namespace {

@@ -78,8 +78,8 @@ TEST_P(UnlabelledRuns, EnginesAgree) {
     options.steps = 700;
     const HiddenWorld world(options);
     JointFilterParameters compressed = parameters();
-    // Without commits the engines do the same sums. With them one mode stays exact but for rounding; the exact
-    // IMM's modes are merged then, which EngineTwins has tests of.
+    // Without commits the engines do the same sums. With them one mode stays exact but for rounding; the
+    // exact IMM's modes are merged then, which EngineTwins has tests of.
     const bool commits = std::get<0>(GetParam()) != Movers::exact;
     compressed.engine.active_set.keep_at_least = commits ? 3 : 1000;
     compressed.engine.active_set.base_growth = commits ? 4 : 1e9;
@@ -199,7 +199,8 @@ INSTANTIATE_TEST_SUITE_P(All, UnlabelledRuns,
                                           testing::Values(Consistency::classic, Consistency::invariant)),
                          [](const auto& each) {
                              return nameOf(std::get<0>(each.param)) +
-                                    (std::get<1>(each.param) == Consistency::classic ? "_classic" : "_invariant");
+                                    (std::get<1>(each.param) == Consistency::classic ? "_classic"
+                                                                                     : "_invariant");
                          });
 
 }  // namespace

@@ -142,8 +142,7 @@ void JointFilter::holdFloor(BlockId target, const Matrix2& P) {
     if (axes.eigenvalues()(0) >= floor) return;
     const Vector2 missing = (floor - axes.eigenvalues().array()).max(0);
     Matrix6 Q = Matrix6::Zero();
-    Q.topLeftCorner<2, 2>() =
-        axes.eigenvectors() * missing.asDiagonal() * axes.eigenvectors().transpose();
+    Q.topLeftCorner<2, 2>() = axes.eigenvectors() * missing.asDiagonal() * axes.eigenvectors().transpose();
     belief_->widenTarget(target, Q);
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // The joint filter over robot, movers and landmarks (paper 1, section 2): the EKF of ekf_slamot, the IMM of
-// imm_slamot, and what the other joint estimators are composed of. A step is put together here: which detection
-// is of which object is ObjectAssociation's, what becomes of objects without identity is ObjectLife's, how
-// movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
+// imm_slamot, and what the other joint estimators are composed of. A step is put together here: which
+// detection is of which object is ObjectAssociation's, what becomes of objects without identity is
+// ObjectLife's, how movers' modes are kept is ModalState's, how means and covariances are kept is
+// JointBank's.
 #include <memory>
 #include <vector>
 
