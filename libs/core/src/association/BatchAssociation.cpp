@@ -183,9 +183,13 @@ std::vector<int> Batch::decided(std::vector<int> open, const Part& candidates,
     }
     // ... then the others together: several that fit in one way bear each other out.
     double together = 0;
-    for (const int c : open)
-        if (given.push(c)) together += evidence(candidates.problem.candidate(c), given);
-    if (!open.empty() && together >= enough) sure.insert(sure.end(), open.begin(), open.end());
+    std::vector<int> possible;
+    for (const int c : open) {
+        if (!given.push(c)) continue;
+        possible.push_back(c);
+        together += evidence(candidates.problem.candidate(c), given);
+    }
+    if (!possible.empty() && together >= enough) sure.insert(sure.end(), possible.begin(), possible.end());
     return sure;
 }
 
