@@ -170,13 +170,13 @@ std::vector<int> Batch::decided(std::vector<int> open, const Part& candidates,
         more = false;
         std::vector<int> rest;
         for (const int c : open) {
-            const bool possible = given.push(c);
-            if (possible && evidence(candidates.problem.candidate(c), given) >= enough) {
+            const bool definite = given.push(c);
+            if (definite && evidence(candidates.problem.candidate(c), given) >= enough) {
                 sure.push_back(c);
                 more = true;
                 continue;
             }
-            if (possible) given.pop();
+            if (definite) given.pop();
             rest.push_back(c);
         }
         open = std::move(rest);
