@@ -45,8 +45,9 @@ void printSummary(const run::JobResult& result, const Options& options, const Ve
     fmt::print("  {} odometry entries, {} detections in {} sets; {} landmarks, {} tracks at the end\n",
                counts["odometry"].get<long>(), counts["detections"].get<long>(), counts["detection_sets"].get<long>(),
                counts["landmarks"].get<long>(), counts["tracks_at_end"].get<long>());
-    fmt::print("  detections used {}, down-weighted {}, rejected {}, ignored {}\n", counts["detections_used"].get<long>(),
-               counts["detections_inflated"].get<long>(), counts["detections_rejected"].get<long>(),
+    fmt::print("  detections used {}, down-weighted {}, rejected {}, tentative {}, ignored {}\n",
+               counts["detections_used"].get<long>(), counts["detections_inflated"].get<long>(),
+               counts["detections_rejected"].get<long>(), counts["detections_tentative"].get<long>(),
                counts["detections_ignored"].get<long>());
     for (const auto& drop : result.summary["drops"])
         fmt::print("  dropped: {} of '{}' ({})\n", drop["count"].get<long>(), drop["sensor"].get<std::string>(),

@@ -22,6 +22,7 @@ using test::randomVector;
 int sizeOf(BlockKind kind) {
     switch (kind) {
         case BlockKind::robot:
+        case BlockKind::pose:
             return 3;
         case BlockKind::target:
             return 6;

@@ -229,7 +229,9 @@ TEST(ModalStateTest, WhatWasWeighedIsNoOutlier) {
             if (weighed) lenient.sight(far, false);
             EXPECT_TRUE(near(strict.state->target(strict.target).mean,
                              weighed ? lenient.state->target(strict.target).mean : before, 1e-9));
-            if (weighed) EXPECT_GT((strict.state->target(strict.target).mean - before).norm(), 0.1);
+            if (weighed) {
+                EXPECT_GT((strict.state->target(strict.target).mean - before).norm(), 0.1);
+            }
         }
     });
 }

@@ -139,6 +139,25 @@ TEST(ExistenceTest, NothingShakesWhatIsCertain) {
     EXPECT_TRUE(existence.confirmed(strict));
 }
 
+TEST(ExistenceTest, WhatMayLeaveIsGoneInTime) {
+    Existence existence(firstSights(1, 1));  // 1/2
+    existence.mayLeave(3, 6);
+    EXPECT_NEAR(existence.probability(), 0.5 * std::exp(-0.5), rounding);
+    existence.mayLeave(3, std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(existence.probability(), 0.5 * std::exp(-0.5), rounding);
+    // What is hidden leaves as what is visible does: missed for sure, all that is left is hidden.
+    Existence hidden(firstSights(1, 1));
+    LifeParameters p;
+    p.hidden_every = p.hidden_for = 1;
+    hidden.pass(1e6, p);  // 1/4 each
+    hidden.mayLeave(6, 6);
+    EXPECT_NEAR(hidden.visibility(), 0.25 * std::exp(-1), rounding);
+    EXPECT_NEAR(hidden.probability(), 0.5 * std::exp(-1), rounding);
+    Existence certain = Existence::certain();
+    certain.mayLeave(1e9, 1);
+    EXPECT_EQ(certain.probability(), 1);
+}
+
 TEST(ExistenceTest, ParametersAreDescribed) {
     LifeParameters p;
     ParameterTable table("objects", "");

@@ -170,22 +170,26 @@ std::vector<int> Batch::decided(std::vector<int> open, const Part& candidates,
         more = false;
         std::vector<int> rest;
         for (const int c : open) {
-            const bool possible = given.push(c);
-            if (possible && evidence(candidates.problem.candidate(c), given) >= enough) {
+            const bool definite = given.push(c);
+            if (definite && evidence(candidates.problem.candidate(c), given) >= enough) {
                 sure.push_back(c);
                 more = true;
                 continue;
             }
-            if (possible) given.pop();
+            if (definite) given.pop();
             rest.push_back(c);
         }
         open = std::move(rest);
     }
     // ... then the others together: several that fit in one way bear each other out.
     double together = 0;
-    for (const int c : open)
-        if (given.push(c)) together += evidence(candidates.problem.candidate(c), given);
-    if (!open.empty() && together >= enough) sure.insert(sure.end(), open.begin(), open.end());
+    std::vector<int> possible;
+    for (const int c : open) {
+        if (!given.push(c)) continue;
+        possible.push_back(c);
+        together += evidence(candidates.problem.candidate(c), given);
+    }
+    if (!possible.empty() && together >= enough) sure.insert(sure.end(), possible.begin(), possible.end());
     return sure;
 }
 

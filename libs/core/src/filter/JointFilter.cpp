@@ -1,6 +1,8 @@
 #include "slamot/core/filter/JointFilter.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <tuple>
 
 namespace slamot {
 
@@ -48,7 +50,7 @@ void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
 void JointFilter::predict(const OdometryIncrement& odometry) {
     setModels(odometry.t0);
     belief_->predict(odometry, models_);
-    if (life_.busy()) life_.predict(relativeStep(motion_, odometry), models_.front());
+    if (life_.busy()) life_.predict(relativeStep(motion_, odometry), simplestModel());
     endUnseenTracks(odometry.t1);
 }
 
@@ -60,6 +62,13 @@ void JointFilter::setModels(Stamp stamp) {
         models_.front().kind = change.kind;
         models_.front().noise_std = change.noise_std;
     }
+}
+
+const TargetModel& JointFilter::simplestModel() const {
+    return *std::min_element(models_.begin(), models_.end(), [](const TargetModel& a, const TargetModel& b) {
+        return std::make_tuple(a.kind, -a.noise_std, a.turn_rate) <
+               std::make_tuple(b.kind, -b.noise_std, b.turn_rate);
+    });
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {
@@ -100,7 +109,7 @@ UpdateReport JointFilter::updateByAssociation(const RangeBearingSet& seen, Stamp
     const AssociatedBatch batch = association_.associate(*belief_, objects_, seen, report.innovations);
     update(batch.used, batch.known, report.innovations, now);
     startNamed(seen, now, report.innovations);
-    life_.follow(belief_, objects_, batch, now, models_.front(), report.innovations);
+    life_.follow(belief_, objects_, batch, now, simplestModel(), report.innovations);
     return report;
 }
 
@@ -120,14 +129,20 @@ void JointFilter::markSeen(const Innovation& innovation, Stamp now) {
 }
 
 void JointFilter::holdFloor(BlockId target) {
+    holdFloor(target, belief_->covariance(target, target).topLeftCorner<2, 2>());
+    // The scalable form's banks, which are reported, may be surer than the joint state, which detections are
+    // compared with.
+    if (!parameters_.imm.modes.empty())
+        holdFloor(target, belief_->target(target).covariance.topLeftCorner<2, 2>());
+}
+
+void JointFilter::holdFloor(BlockId target, const Matrix2& P) {
     const double floor = parameters_.target_position_floor * parameters_.target_position_floor;
-    const Matrix2 P = belief_->covariance(target, target).topLeftCorner<2, 2>();
     const Eigen::SelfAdjointEigenSolver<Matrix2> axes(P);
     if (axes.eigenvalues()(0) >= floor) return;
     const Vector2 missing = (floor - axes.eigenvalues().array()).max(0);
     Matrix6 Q = Matrix6::Zero();
-    Q.topLeftCorner<2, 2>() =
-        axes.eigenvectors() * missing.asDiagonal() * axes.eigenvectors().transpose();
+    Q.topLeftCorner<2, 2>() = axes.eigenvectors() * missing.asDiagonal() * axes.eigenvectors().transpose();
     belief_->widenTarget(target, Q);
 }
 

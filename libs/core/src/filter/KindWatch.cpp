@@ -32,12 +32,28 @@ double KindWatch::look(BlockId block, double moving, const RangeBearingDetection
         MotionChange believed = change_;
         believed.moving_probability = std::clamp(moving, least_doubt, 1 - least_doubt);
         const RelativeGaussian point = firstSight(detection, sensor, consistency);
-        watched_.emplace(block, Watched{RelativeTrack::unknown(point, believed), 0});
+        watched_.emplace(block, Watched{RelativeTrack::unknown(point, believed)});
         return believed.moving_probability;
     }
     known->second.unseen = 0;
+    known->second.aside = 0;
     known->second.track.update(detection, sensor);
     return known->second.track.movingProbability();
+}
+
+std::optional<double> KindWatch::nisAsMover(BlockId block, const RangeBearingDetection& detection,
+                                            const Pose2& sensor) const {
+    const auto known = watched_.find(block);
+    if (known == watched_.end()) return std::nullopt;
+    return known->second.track.nisAsMover(detection, sensor);
+}
+
+double KindWatch::lookAside(BlockId block, const RangeBearingDetection& detection, const Pose2& sensor,
+                            double detection_probability, double density) {
+    Watched& watched = watched_.at(block);
+    const double before = watched.track.movingProbability();
+    watched.track.updateAsMover(detection, sensor, detection_probability, density);
+    return ++watched.aside > 1 ? watched.track.movingProbability() : before;
 }
 
 RelativeGaussian KindWatch::asMover(BlockId block) const {

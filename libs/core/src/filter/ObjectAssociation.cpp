@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "slamot/core/association/DetectionModel.h"
 #include "slamot/core/objects/FieldOfView.h"
+#include "slamot/core/objects/TentativeObjects.h"
 
 namespace slamot {
 namespace {
@@ -81,8 +81,7 @@ std::vector<double> ObjectAssociation::clutterDensities(const RangeBearingSet& s
     std::vector<double> out;
     for (const RangeBearingDetection& detection : seen.detections) {
         const LifeParameters& life = detection.kind == ObjectKind::mover ? mover_life_ : landmark_life_;
-        out.push_back(clutterDensity(life.clutter_per_scan + life.new_per_scan,
-                                     seen.sensors[static_cast<std::size_t>(detection.sensor)]));
+        out.push_back(unexplainedDensity(life, seen.sensors[static_cast<std::size_t>(detection.sensor)]));
     }
     return out;
 }
@@ -117,8 +116,7 @@ AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue
     for (std::size_t d = 0; d < seen.detections.size(); ++d)
         if (isAssociated(seen.detections[d])) nameless.push_back(static_cast<int>(d));
 
-    BatchAssociation found =
-        associator_.associate(belief, visible, seen, nameless, clutterDensities(seen));
+    BatchAssociation found = associator_.associate(belief, visible, seen, nameless, clutterDensities(seen));
     pair(objects, visible, batch, found, innovations);
     for (const int d : nameless)
         if (found.of_detection[static_cast<std::size_t>(d)].object < 0) batch.unexplained.push_back(d);

@@ -23,8 +23,10 @@ LandmarkRecord& ObjectCatalogue::addLandmark(BlockId block, SourceId source, Sta
 
 TrackRecord& ObjectCatalogue::addTrack(BlockId block, SourceId source, Stamp now,
                                        std::optional<TrackId> again) {
-    tracks_.push_back({again ? *again : TrackId{next_track_++}, source, block, now, now, std::nullopt});
-    return tracks_.back();
+    const TrackId id = again ? *again : TrackId{next_track_++};
+    const auto after =
+        std::find_if(tracks_.begin(), tracks_.end(), [id](const auto& t) { return id < t.id; });
+    return *tracks_.insert(after, {id, source, block, now, now, std::nullopt});
 }
 
 void ObjectCatalogue::removeLandmark(LandmarkId id) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "slamot/core/objects/FieldOfView.h"
 
@@ -19,6 +21,11 @@ const RangeBearingDetection& detectionOf(const AssociatedBatch& batch, int d) {
 
 const Pose2& sensorOf(const AssociatedBatch& batch, const RangeBearingDetection& detection) {
     return batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+}
+
+/// Neither seen nor missed.
+bool isInDoubt(const AssociatedBatch& batch, BlockId block) {
+    return std::find(batch.in_doubt.begin(), batch.in_doubt.end(), block) != batch.in_doubt.end();
 }
 
 bool surelySeenByAny(const GatheredView& view, BlockId block, ObjectKind kind, const RangeBearingSet& seen,
@@ -44,14 +51,16 @@ ParameterTable describe(ObjectLifeParameters& p, const std::string& name, Parame
                    "Of two landmarks being one, at which they are merged.");
     describe(p.movers, "movers", movers);
     movers
-        .choice("birth", p.birth, {{"two_point", TrackBirth::two_point}, {"one_point", TrackBirth::one_point}},
+        .choice("birth", p.birth,
+                {{"two_point", TrackBirth::two_point}, {"one_point", TrackBirth::one_point}},
                 "two_point: a new mover has the velocity that the detections before its confirmation show; "
                 "one_point: the prior, whatever they show.")
         .real("reidentify_within", p.reidentify_within, "s", Interval::nonNegative(),
               "A mover that comes back within that time after its track ended has its number again.")
         .real("reidentify_probability", p.reidentify_probability, "-", Interval::openProbability(),
               "Part of the movers that come back which lie inside the gate of the ended track's prediction.");
-    ParameterTable mixed(name + ".mixed", "Detections of which the sensor does not tell landmark from mover.");
+    ParameterTable mixed(name + ".mixed",
+                         "Detections of which the sensor does not tell landmark from mover.");
     mixed
         .real("moving_probability", p.change.moving_probability, "-", Interval::openProbability(),
               "P(moving) of an object at first sight.")
@@ -97,20 +106,21 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
     for (const auto* known : {&batch.known.landmarks, &batch.known.targets})
         for (const auto& sight : *known) sights[sight.block] = sight.detection;
 
-    judge(belief, objects, batch, sights, now);
+    const std::vector<BlockId> missed = judge(belief, objects, batch, sights, now);
     changeKinds(belief, objects, batch, sights, now);
+    const std::vector<int> unexplained = findMoved(belief, objects, batch, missed, now, innovations);
     merge(belief, objects);
-    removeLost(belief, objects, now);
+    removeLost(belief, objects, batch, now);
+    last_scan_ = now;
+    lost_.forgetOld(now);
 
-    for (const int d : batch.unexplained)
-        innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
+    for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
     for (const ConfirmedObject& confirmed :
-         tentative_.update(batch.seen, now, batch.unexplained, batch.may_be_new, consistency_))
+         tentative_.update(batch.seen, now, unexplained, batch.may_be_new, consistency_))
         admit(belief, objects, confirmed, now, model,
               innovations[static_cast<std::size_t>(confirmed.detection)]);
 
     if (tentative_.size() > 0) poses_.remember(*belief, now);
-    lost_.forgetOld(now);
     for (const BlockId block : belief->bank().landmarksWithinReach())
         objects.place(block, belief->mean(block).head<2>());
 }
@@ -118,40 +128,46 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
 // --- existence
 // ----------------------------------------------------------------------------------------------
 
-void ObjectLife::judge(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
-                       const Sights& sights, Stamp now) {
-    std::vector<BlockId> blocks = batch.landmarks;
+std::vector<BlockId> ObjectLife::judge(ModalBelief& belief, ObjectCatalogue& objects,
+                                       const AssociatedBatch& batch, const Sights& sights, Stamp now) {
+    std::vector<BlockId> blocks = batch.landmarks, missed;
     for (const TrackRecord& track : objects.tracks()) blocks.push_back(track.block);
     const GatheredView view(*belief, blocks);
     for (const BlockId block : batch.landmarks)
         if (LandmarkRecord* landmark = objects.landmarkOf(block); landmark->life)
-            look(view, *landmark->life, block, ObjectKind::landmark, batch, sights, now);
+            if (!look(view, *landmark->life, block, ObjectKind::landmark, batch, sights, now))
+                missed.push_back(block);
     for (TrackRecord& track : objects.tracks())
         if (track.life) look(view, *track.life, track.block, ObjectKind::mover, batch, sights, now);
     compare(view, objects, batch, sights);
+    return missed;
 }
 
-void ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId block, ObjectKind kind,
+bool ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId block, ObjectKind kind,
                       const AssociatedBatch& batch, const Sights& sights, Stamp now) const {
-    const LifeParameters& parameters =
-        kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
+    const LifeParameters& parameters = kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
     life.existence.pass(secondsBetween(life.looked, now), parameters);
     life.looked = now;
-    const auto& in_doubt = batch.in_doubt;
-    if (std::find(in_doubt.begin(), in_doubt.end(), block) != in_doubt.end()) return;
-    if (const auto sight = sights.find(block); sight != sights.end())
+    // What may move leaves the place where it stood. Out of view nothing is held against it.
+    if (kind == ObjectKind::landmark && life.seen_as == ObjectKind::unknown)
+        life.existence.mayLeave(secondsBetween(last_scan_, now), parameters_.change.start_every);
+    if (isInDoubt(batch, block)) return true;
+    if (const auto sight = sights.find(block); sight != sights.end()) {
         life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
-    else if (surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))
-        life.existence.missed(parameters.detection_probability);
+        return true;
+    }
+    if (!surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_)) return true;
+    life.existence.missed(parameters.detection_probability);
+    return false;
 }
 
-void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, Stamp now) {
-    std::vector<LandmarkRecord> landmarks;
-    for (const LandmarkRecord& landmark : objects.landmarks())
-        if (landmark.life && landmark.life->looked == now &&
-            landmark.life->existence.lost(parameters_.landmarks))
-            landmarks.push_back(landmark);
-    for (const LandmarkRecord& landmark : landmarks) removeLandmark(belief, objects, landmark);
+void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                            Stamp now) {
+    for (const BlockId block : batch.landmarks) {
+        const LandmarkRecord* landmark = objects.landmarkOf(block);  // none: it is a mover now, or merged
+        if (landmark && landmark->life && landmark->life->existence.lost(parameters_.landmarks))
+            removeLandmark(belief, objects, *landmark);
+    }
     const std::vector<TrackRecord> tracks = objects.tracks();
     for (const TrackRecord& track : tracks) {
         if (!track.life || !track.life->existence.lost(parameters_.movers)) continue;
@@ -192,8 +208,9 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
             const BlockId b = batch.landmarks[j];
             const Vector2 apart = view.mean(a) - view.mean(b);
             if (apart.norm() > farthest_duplicate || !(living(a) || living(b))) continue;
-            const Matrix2 P = view.covariance(a, a) + view.covariance(b, b) - view.covariance(a, b) -
-                              view.covariance(b, a);
+            if (isInDoubt(batch, a) || isInDoubt(batch, b)) continue;
+            const Matrix2 P =
+                view.covariance(a, a) + view.covariance(b, b) - view.covariance(a, b) - view.covariance(b, a);
             if (apart.dot(P.llt().solve(apart)) > pair_gate_) {
                 duplicates_.forget(a, b);
                 continue;
@@ -210,11 +227,15 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
 }
 
 void ObjectLife::merge(ModalBelief& belief, ObjectCatalogue& objects) {
-    for (const auto& [kept, gone] : duplicates_.merged()) {
-        LandmarkRecord* first = objects.landmarkOf(kept);
-        const LandmarkRecord* second = objects.landmarkOf(gone);
-        if (!first || !second || !second->life) continue;  // merged with a third, or named by the log
+    for (auto [kept, gone] : duplicates_.merged()) {
+        LandmarkRecord *first = objects.landmarkOf(kept), *second = objects.landmarkOf(gone);
+        if (!first || !second) continue;  // merged with a third
+        if (!second->life) {              // named by the log: that one stays
+            std::swap(kept, gone);
+            std::swap(first, second);
+        }
         first->seen += second->seen;
+        first->first_seen = std::min(first->first_seen, second->first_seen);
         first->last_seen = std::max(first->last_seen, second->last_seen);
         const LandmarkId second_id = second->id;
         duplicates_.forget(gone);
@@ -240,27 +261,92 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
         if (landmark && life->moving < parameters_.decide_probability) continue;
         if (track && life->moving > 1 - parameters_.decide_probability) continue;
 
-        // Its position begins anew with this detection: what came before was of another kind.
-        RelativeGaussian point = firstSight(detection, sensor, consistency_);
-        const ObjectLifeRecord going_on = *life;
-        const std::int64_t seen = landmark ? landmark->seen : 1;
-        if (landmark) {
-            RelativeGaussian mover = kinds_.asMover(block);
-            mover.mean.head<2>() = point.mean;
-            mover.covariance.topRows<2>().setZero();
-            mover.covariance.leftCols<2>().setZero();
-            mover.covariance.topLeftCorner<2, 2>() = point.covariance;
-            removeLandmark(belief, objects, *landmark);
-            if (const auto target = belief.addTarget(mover))
-                objects.giveLife(objects.addTrack(*target, {}, now), going_on);
-        } else {
-            removeTrack(belief, objects, *track);
-            LandmarkRecord& stopped = objects.addLandmark(belief->addLandmark(point), {}, now);
-            stopped.seen = seen;
-            objects.place(stopped.block, belief->mean(stopped.block).head<2>());
-            objects.giveLife(stopped, going_on);
+        if (landmark)
+            becomeMover(belief, objects, *landmark, detection, sensor, now);
+        else
+            becomeLandmark(belief, objects, *track, detection, sensor, now);
+    }
+}
+
+// An object's position begins anew with the detection that shows its kind: what came before was of another.
+
+std::optional<TrackId> ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalogue& objects,
+                                               const LandmarkRecord& landmark,
+                                               const RangeBearingDetection& detection, const Pose2& sensor,
+                                               Stamp now) {
+    const RelativeGaussian point = firstSight(detection, sensor, consistency_);
+    RelativeGaussian mover = kinds_.asMover(landmark.block);
+    mover.mean.head<2>() = point.mean;
+    mover.covariance.topRows<2>().setZero();
+    mover.covariance.leftCols<2>().setZero();
+    mover.covariance.topLeftCorner<2, 2>() = point.covariance;
+    const LandmarkRecord was = landmark;
+    removeLandmark(belief, objects, was);
+    const std::optional<BlockId> target = belief.addTarget(mover);
+    if (!target) return std::nullopt;
+    TrackRecord& started = objects.addTrack(*target, {}, now);
+    started.first_seen = was.first_seen;
+    objects.giveLife(started, *was.life);
+    return started.id;
+}
+
+void ObjectLife::becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track,
+                                const RangeBearingDetection& detection, const Pose2& sensor, Stamp now) {
+    const TrackRecord was = track;
+    removeTrack(belief, objects, was);
+    LandmarkRecord& stopped =
+        objects.addLandmark(belief->addLandmark(firstSight(detection, sensor, consistency_)), {}, now);
+    stopped.first_seen = was.first_seen;
+    objects.place(stopped.block, belief->mean(stopped.block).head<2>());
+    objects.giveLife(stopped, *was.life);
+}
+
+std::vector<int> ObjectLife::findMoved(ModalBelief& belief, ObjectCatalogue& objects,
+                                       const AssociatedBatch& batch, const std::vector<BlockId>& missed,
+                                       Stamp now, std::vector<Innovation>& innovations) {
+    struct Aside {
+        double nis;
+        BlockId block;
+        int detection;
+        bool operator<(const Aside& other) const {
+            return std::tie(nis, block, detection) < std::tie(other.nis, other.block, other.detection);
+        }
+    };
+    std::vector<Aside> all;
+    for (const int d : batch.unexplained) {
+        const RangeBearingDetection& detection = detectionOf(batch, d);
+        if (detection.kind != ObjectKind::unknown) continue;
+        for (const BlockId block : missed) {
+            const auto nis = kinds_.nisAsMover(block, detection, sensorOf(batch, detection));
+            if (nis && *nis <= pair_gate_) all.push_back({*nis, block, d});
         }
     }
+    std::sort(all.begin(), all.end());
+
+    std::vector<int> unexplained = batch.unexplained;
+    std::set<BlockId> looked;
+    std::set<int> taken;
+    for (const Aside& aside : all) {
+        if (looked.count(aside.block) > 0 || taken.count(aside.detection) > 0) continue;
+        looked.insert(aside.block);
+        taken.insert(aside.detection);
+        LandmarkRecord* landmark = objects.landmarkOf(aside.block);
+        const RangeBearingDetection& detection = detectionOf(batch, aside.detection);
+        const RangeBearingSensor& sensor = batch.seen.sensors[static_cast<std::size_t>(detection.sensor)];
+        landmark->life->moving =
+            kinds_.lookAside(aside.block, detection, sensor.pose, parameters_.landmarks.detection_probability,
+                             unexplainedDensity(parameters_.landmarks, sensor));
+        if (landmark->life->moving < parameters_.decide_probability) continue;
+        const std::optional<TrackId> track =
+            becomeMover(belief, objects, *landmark, detection, sensor.pose, now);
+        if (!track) continue;
+        Innovation& innovation = innovations[static_cast<std::size_t>(aside.detection)];
+        innovation.kind = ObjectKind::mover;
+        innovation.track = *track;
+        innovation.outcome = Outcome::initiated;
+        unexplained.erase(std::find(unexplained.begin(), unexplained.end(), aside.detection));
+    }
+    return unexplained;
 }
 
 // --- new objects
@@ -280,8 +366,7 @@ void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const Conf
     const TentativeObject& object = confirmed.object;
     const ObjectLifeRecord life{object.kind, object.existence, object.track.movingProbability(), now};
     if (!confirmed.moving) {
-        LandmarkRecord& landmark =
-            objects.addLandmark(belief->addLandmark(pastSights(object, now)), {}, now);
+        LandmarkRecord& landmark = objects.addLandmark(belief->addLandmark(pastSights(object, now)), {}, now);
         landmark.seen = object.seen;
         landmark.first_seen = object.first_seen;
         objects.place(landmark.block, belief->mean(landmark.block).head<2>());
@@ -296,8 +381,8 @@ void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const Conf
         const std::optional<BlockId> block = belief.addTarget(mover);
         if (!block) return;
         const TargetBelief born = belief->target(*block);
-        TrackRecord& track = objects.addTrack(
-            *block, {}, now, lost_.continuedBy(born.mean, born.covariance, now, model));
+        TrackRecord& track =
+            objects.addTrack(*block, {}, now, lost_.continuedBy(born.mean, born.covariance, now, model));
         track.first_seen = object.first_seen;
         objects.giveLife(track, life);
         innovation.kind = ObjectKind::mover;

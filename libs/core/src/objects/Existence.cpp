@@ -1,6 +1,7 @@
 #include "slamot/core/objects/Existence.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "TwoStateChain.h"
 
@@ -28,6 +29,13 @@ void Existence::pass(double dt, const LifeParameters& p) {
     const double shift = visible_ * chain.a_to_b - hidden_ * chain.b_to_a;
     visible_ -= shift;
     hidden_ += shift;
+}
+
+void Existence::mayLeave(double dt, double stay) {
+    if (certain_) return;
+    const double stays = std::exp(-dt / stay);
+    visible_ *= stays;
+    hidden_ *= stays;
 }
 
 void Existence::weigh(double visible) {

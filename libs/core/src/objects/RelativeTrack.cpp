@@ -142,6 +142,21 @@ RelativeTrack::Match RelativeTrack::match(const RangeBearingDetection& detection
     return out;
 }
 
+double RelativeTrack::nisAsMover(const RangeBearingDetection& detection, const Pose2& sensor) const {
+    return matchWith(sightOf(moving_, sensor).expected, detection).nis;
+}
+
+void RelativeTrack::updateAsMover(const RangeBearingDetection& detection, const Pose2& sensor,
+                                  double detection_probability, double density) {
+    const double its_own =
+        std::exp(matchWith(sightOf(moving_, sensor).expected, detection).log_likelihood) / density;
+    const double p = moving_probability_,
+                 moving = p * (detection_probability * its_own + 1 - detection_probability),
+                 still = (1 - p) * (1 - detection_probability);
+    moving_probability_ = std::clamp(moving / (moving + still), least_probability, 1 - least_probability);
+    correct(moving_, detection, sensor);
+}
+
 void RelativeTrack::update(const RangeBearingDetection& detection, const Pose2& sensor) {
     if (mayBeStill() && mayMove()) {
         const double still = matchWith(sightOf(still_, sensor).expected, detection).log_likelihood,

@@ -10,15 +10,9 @@
 namespace slamot {
 namespace {
 
-/// Every detection has some source, also where a config expects neither clutter nor new objects.
 constexpr double least_per_scan = 1e-6;
 /// Objects that take longer to confirm lose their first sights.
 constexpr std::size_t most_sights = 20;
-
-/// Density of what a sensor detects that comes from no known object: clutter, and first sights.
-double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor) {
-    return clutterDensity(std::max(life.clutter_per_scan + life.new_per_scan, least_per_scan), sensor);
-}
 
 /// One row's squared distance is never above that of both: what fails here fails the gate.
 bool mayPass(const ExpectedDetection& expected, const RangeBearingDetection& detection, double gate) {
@@ -30,6 +24,10 @@ bool mayPass(const ExpectedDetection& expected, const RangeBearingDetection& det
 }
 
 }  // namespace
+
+double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor) {
+    return clutterDensity(std::max(life.clutter_per_scan + life.new_per_scan, least_per_scan), sensor);
+}
 
 /// What an update is given.
 struct TentativeObjects::Batch {

@@ -1,8 +1,9 @@
 #pragma once
 // The joint filter over robot, movers and landmarks (paper 1, section 2): the EKF of ekf_slamot, the IMM of
-// imm_slamot, and what the other joint estimators are composed of. A step is put together here: which detection
-// is of which object is ObjectAssociation's, what becomes of objects without identity is ObjectLife's, how
-// movers' modes are kept is ModalState's, how means and covariances are kept is JointBank's.
+// imm_slamot, and what the other joint estimators are composed of. A step is put together here: which
+// detection is of which object is ObjectAssociation's, what becomes of objects without identity is
+// ObjectLife's, how movers' modes are kept is ModalState's, how means and covariances are kept is
+// JointBank's.
 #include <memory>
 #include <vector>
 
@@ -88,6 +89,8 @@ class JointFilter {
 
   private:
     void setModels(Stamp stamp);
+    /// Of movers that have no modes: not confirmed yet, or lost. Whatever the order of the modes.
+    const TargetModel& simplestModel() const;
     void endUnseenTracks(Stamp now);
     UpdateReport updateByIdentity(const RangeBearingSet& seen, Stamp now);
     UpdateReport updateByAssociation(const RangeBearingSet& seen, Stamp now);
@@ -95,6 +98,8 @@ class JointFilter {
                 Stamp now);
     void markSeen(const Innovation& innovation, Stamp now);
     void holdFloor(BlockId target);
+    /// P: what is believed of its position.
+    void holdFloor(BlockId target, const Matrix2& P);
     /// Objects whose identity is new: movers, then landmarks.
     void startNamed(const RangeBearingSet& seen, Stamp now, std::vector<Innovation>& innovations);
     void start(const RangeBearingSet& seen, Stamp now, Innovation& innovation);

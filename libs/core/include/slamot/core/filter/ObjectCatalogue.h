@@ -61,7 +61,7 @@ class ObjectCatalogue {
     TrackRecord* track(TrackId id);
     TrackRecord* trackOf(BlockId block);
 
-    /// By id.
+    /// Ascending by id.
     const std::vector<LandmarkRecord>& landmarks() const { return landmarks_; }
     const std::vector<TrackRecord>& tracks() const { return tracks_; }
     std::vector<TrackRecord>& tracks() { return tracks_; }
@@ -79,7 +79,7 @@ class ObjectCatalogue {
 
   private:
     std::vector<LandmarkRecord> landmarks_;  ///< ascending by id
-    std::vector<TrackRecord> tracks_;
+    std::vector<TrackRecord> tracks_;        ///< ascending by id
     std::unordered_map<SourceId, LandmarkId> landmark_by_source_;
     std::unordered_map<BlockId, LandmarkId> landmark_by_block_;
     LandmarkIndex positions_;

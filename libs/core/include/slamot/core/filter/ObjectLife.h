@@ -1,6 +1,6 @@
 #pragma once
-// The life of objects to which the log gives no identity: they are confirmed, doubted, merged, found to move or
-// to stand still, let go, and known again.
+// The life of objects to which the log gives no identity: they are confirmed, doubted, merged, found to move
+// or to stand still, let go, and known again.
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/estimation/GatheredView.h"
 #include "slamot/core/filter/KindWatch.h"
@@ -57,10 +57,11 @@ class ObjectLife {
     /// By block of an object of the joint state: the detection it was updated with.
     using Sights = std::map<BlockId, int>;
 
-    /// What a scan says of existence.
-    void judge(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
-               const Sights& sights, Stamp now);
-    void look(const GatheredView& view, ObjectLifeRecord& life, BlockId block, ObjectKind kind,
+    /// What a scan says of existence; gives the landmarks that should have been seen and were not.
+    std::vector<BlockId> judge(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                               const Sights& sights, Stamp now);
+    /// False where it should have been seen and was not.
+    bool look(const GatheredView& view, ObjectLifeRecord& life, BlockId block, ObjectKind kind,
               const AssociatedBatch& batch, const Sights& sights, Stamp now) const;
     /// Landmarks that may be one.
     void compare(const GatheredView& view, ObjectCatalogue& objects, const AssociatedBatch& batch,
@@ -69,7 +70,17 @@ class ObjectLife {
     /// Landmarks that move, and movers that stand still.
     void changeKinds(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
                      const Sights& sights, Stamp now);
-    void removeLost(ModalBelief& belief, ObjectCatalogue& objects, Stamp now);
+    std::optional<TrackId> becomeMover(ModalBelief& belief, ObjectCatalogue& objects,
+                                       const LandmarkRecord& landmark, const RangeBearingDetection& detection,
+                                       const Pose2& sensor, Stamp now);
+    void becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track,
+                        const RangeBearingDetection& detection, const Pose2& sensor, Stamp now);
+    /// A landmark that starts to move leaves its gate: what was detected where it would be then. Gives the
+    /// detections that are still unexplained.
+    std::vector<int> findMoved(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
+                               const std::vector<BlockId>& missed, Stamp now,
+                               std::vector<Innovation>& innovations);
+    void removeLost(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch, Stamp now);
     void removeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark);
     void removeTrack(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track);
     void admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed, Stamp now,
@@ -87,6 +98,7 @@ class ObjectLife {
     KindWatch kinds_;
     DuplicateWatch duplicates_;
     LostTracks lost_;
+    Stamp last_scan_;  ///< anything before the first
 };
 
 }  // namespace slamot

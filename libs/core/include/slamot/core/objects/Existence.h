@@ -30,6 +30,9 @@ class Existence {
 
     /// Time in view passes: occlusions begin and end.
     void pass(double dt, const LifeParameters& parameters);
+    /// Time in view passes in which the object may have left for good: it stays there for `stay` [s] on
+    /// average.
+    void mayLeave(double dt, double stay);
     /// Detected, where that is `likelihood_ratio` times as likely to come from this object, if it is visible,
     /// as from clutter: P_D N(nu; 0, S) / c.
     void detected(double likelihood_ratio);

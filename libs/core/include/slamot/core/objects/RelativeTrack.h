@@ -51,6 +51,13 @@ class RelativeTrack {
     Match match(const RangeBearingDetection& detection, const Pose2& sensor) const;
     void update(const RangeBearingDetection& detection, const Pose2& sensor);
 
+    /// Of an object that may be still: how far a detection lies from it (NIS) if it moves.
+    double nisAsMover(const RangeBearingDetection& detection, const Pose2& sensor) const;
+    /// It was missed where it is if it is still, and `detection` is its own if it moves, else of something
+    /// that is detected with `density` [1/(m rad)] there.
+    void updateAsMover(const RangeBearingDetection& detection, const Pose2& sensor,
+                       double detection_probability, double density);
+
     double movingProbability() const { return moving_probability_; }
     /// As a landmark: the position if it is still. As a mover: position, velocity and acceleration if it
     /// moves. Only what has a probability above 0 may be asked for.

@@ -29,6 +29,10 @@ struct TentativeObject {
     void keep(const TentativeSight& sight);
 };
 
+/// Density [1/(m rad)] of what a sensor detects that comes from no known object: clutter, and first sights.
+/// Never 0, also where neither is expected: every detection has some source.
+double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor);
+
 /// One that is confirmed, by a detection of the present batch.
 struct ConfirmedObject {
     int detection;  ///< number in the batch: its last one there
