@@ -29,9 +29,9 @@ BlockId ModalState::addLandmark(const std::vector<PastSight>& sights) {
     for (auto sight = sights.begin() + 1; sight != sights.end(); ++sight)
         for (int j = 0; j < bank_->modeCount(); ++j) {
             JointMode& mode = bank_->mode(j);
-            mode.update({linearise(mode, landmark, sight->detection, sight->sensor, bank_->consistency(),
-                                   sight->from)
-                             .measurement});
+            mode.update(
+                {linearise(mode, landmark, sight->detection, sight->sensor, bank_->consistency(), sight->from)
+                     .measurement});
         }
     return landmark;
 }
