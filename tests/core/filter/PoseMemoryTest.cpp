@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "../estimation/ImmScenes.h"
+#include "slamot/core/association/ChiSquare.h"
 #include "slamot/core/estimation/BankedImm.h"
 #include "slamot/core/estimation/CompressedJointBank.h"
 #include "slamot/core/estimation/DecoupledImm.h"
@@ -57,10 +58,11 @@ Stamp at(int step) {
 class LateLandmark {
   public:
     /// noise: 0, or what the noise of everything that has any is multiplied by.
-    LateLandmark(const Case& c, double noise, bool late)
+    LateLandmark(const Case& c, double noise, bool late, bool stray = false)
         : noise_(noise),
           assumed_(noise > 0 ? noise : 1),
           late_(late),
+          stray_(stray),
           consistency_(c.consistency),
           // Modes that are equal: what mixing makes of different ones is no linearisation error.
           modes_(test::immModes("a:cv:0.3, b:cv:0.3")) {
@@ -179,12 +181,16 @@ class LateLandmark {
         for (const Sight& s : sights_)
             past.push_back(
                 {s.when == at(now) ? robot_block : poses.at(s.when).value(), s.detection, s.sensor});
-        landmarks.push_back(belief->addLandmark(past));
+        if (stray_) {  // of something 3 m behind
+            past.insert(past.begin() + 2, past[1]);
+            past[2].detection.range += 3;
+        }
+        landmarks.push_back(belief->addLandmark(past, chiSquareQuantile(0.999, 2)));
     }
 
     const std::vector<Vector2> places_{{6, 1}, {3, -4}, {-4, 3}};
     double noise_, assumed_;
-    bool late_;
+    bool late_, stray_;
     Consistency consistency_;
     ImmParameters modes_;
     RandomStream random_{64, RandomPurpose::test};
@@ -222,6 +228,14 @@ TEST(PoseMemoryTest, WithNoiseTheDifferenceIsLinearisationError) {
             const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Q);
             EXPECT_GT(eigen.eigenvalues()(0), -1e-12 * eigen.eigenvalues().maxCoeff());
         }
+    });
+}
+
+TEST(PoseMemoryTest, ASightOfSomethingElseIsLeftOut) {
+    forAll({Consistency::classic, Consistency::invariant}, [](const Case& c) {
+        const LateLandmark clean(c, 0, true), strayed(c, 0, true, true);
+        EXPECT_EQ(strayed.means(), clean.means());
+        EXPECT_EQ(strayed.covariance(), clean.covariance());
     });
 }
 

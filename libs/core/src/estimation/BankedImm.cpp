@@ -66,8 +66,8 @@ void BankedImm::update(const RangeBearingSet& seen, const KnownObjects& known,
     synchronise();
 }
 
-BlockId BankedImm::addLandmark(const std::vector<PastSight>& sights) {
-    const BlockId landmark = ModalState::addLandmark(sights);
+BlockId BankedImm::addLandmark(const std::vector<PastSight>& sights, double gate) {
+    const BlockId landmark = ModalState::addLandmark(sights, gate);
     synchronise();
     return landmark;
 }

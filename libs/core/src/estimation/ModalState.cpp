@@ -1,5 +1,7 @@
 #include "slamot/core/estimation/ModalState.h"
 
+#include <algorithm>
+
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
 namespace slamot {
@@ -17,7 +19,7 @@ BlockId ModalState::addLandmark(const RelativeGaussian& landmark) {
     return bank_->augment(BlockKind::landmark, byMode(landmark));
 }
 
-BlockId ModalState::addLandmark(const std::vector<PastSight>& sights) {
+BlockId ModalState::addLandmark(const std::vector<PastSight>& sights, double gate) {
     const PastSight& first = sights.front();
     const RelativeGaussian seen = firstSight(first.detection, first.sensor, bank_->consistency());
     std::vector<NewBlock> blocks;
@@ -26,13 +28,17 @@ BlockId ModalState::addLandmark(const std::vector<PastSight>& sights) {
         blocks.back().from = first.from;
     }
     const BlockId landmark = bank_->augment(BlockKind::landmark, blocks);
-    for (auto sight = sights.begin() + 1; sight != sights.end(); ++sight)
-        for (int j = 0; j < bank_->modeCount(); ++j) {
-            JointMode& mode = bank_->mode(j);
-            mode.update(
-                {linearise(mode, landmark, sight->detection, sight->sensor, bank_->consistency(), sight->from)
-                     .measurement});
-        }
+    for (auto sight = sights.begin() + 1; sight != sights.end(); ++sight) {
+        std::vector<Linearisation> by_mode;
+        for (int j = 0; j < bank_->modeCount(); ++j)
+            by_mode.push_back(linearise(bank_->mode(j), landmark, sight->detection, sight->sensor,
+                                        bank_->consistency(), sight->from));
+        // As with outliers: a detection is odd when it is so in every mode.
+        if (std::none_of(by_mode.begin(), by_mode.end(), [gate](const auto& m) { return m.nis <= gate; }))
+            continue;
+        for (int j = 0; j < bank_->modeCount(); ++j)
+            bank_->mode(j).update({by_mode[static_cast<std::size_t>(j)].measurement});
+    }
     return landmark;
 }
 

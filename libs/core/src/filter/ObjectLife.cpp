@@ -363,7 +363,8 @@ void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const Conf
     const TentativeObject& object = confirmed.object;
     const ObjectLifeRecord life{object.kind, object.existence, object.track.movingProbability(), now};
     if (!confirmed.moving) {
-        LandmarkRecord& landmark = objects.addLandmark(belief->addLandmark(pastSights(object, now)), {}, now);
+        const BlockId block = belief->addLandmark(pastSights(object, now), pair_gate_);
+        LandmarkRecord& landmark = objects.addLandmark(block, {}, now);
         landmark.seen = object.seen;
         landmark.first_seen = object.first_seen;
         objects.place(landmark.block, belief->mean(landmark.block).head<2>());

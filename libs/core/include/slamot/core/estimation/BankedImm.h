@@ -29,7 +29,7 @@ class BankedImm : public ModalState {
     void removeTarget(BlockId target) override;
     void widenTarget(BlockId target, const Matrix6& Q) override;
     using ModalState::addLandmark;
-    BlockId addLandmark(const std::vector<PastSight>& sights) override;
+    BlockId addLandmark(const std::vector<PastSight>& sights, double gate) override;
     void mergeLandmarks(BlockId kept, BlockId gone, double deviation) override;
 
     /// Gives the joint state away; this is empty then.

@@ -74,8 +74,9 @@ class ModalState : public JointView {
 
     BlockId addLandmark(const RelativeGaussian& landmark);
     /// A landmark of which there are several sights, each from the robot or from a remembered pose: as if it had
-    /// been there at the first. At least one.
-    virtual BlockId addLandmark(const std::vector<PastSight>& sights);
+    /// been there at the first, but for sights after it of a NIS above `gate`: they were of something else. At
+    /// least one.
+    virtual BlockId addLandmark(const std::vector<PastSight>& sights, double gate);
     /// Where the robot is now, as a block; `again`: a block of this kind, which forgets what it was.
     BlockId rememberPose(std::optional<BlockId> again = std::nullopt);
     void removeLandmark(BlockId landmark) { bank_->remove(landmark); }
