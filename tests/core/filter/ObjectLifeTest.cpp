@@ -145,7 +145,7 @@ class Life {
         belief->update(batch.used, batch.known, innovations);
         for (const auto& sight : batch.known.landmarks)
             objects.markSeen(objects.landmarkOf(sight.block)->id, now);
-        life.follow(belief, objects, batch, now, parameters.target, innovations);
+        life.follow(belief, objects, batch, now, innovations);
     }
 
     JointFilterParameters parameters;

@@ -22,6 +22,8 @@ namespace {
 
 /// JPDA: what is likelier than this to come from a mover weighs in; the rest cannot matter.
 constexpr double least_weight = 1e-3;
+/// ... and with less than this none of them stands for it.
+constexpr double least_standing = 0.1;
 
 /// JPDA: what is as uncertain after the detections as before gets this noise, in units of P_y...
 constexpr double most_noise = 20;
@@ -82,7 +84,7 @@ class Batch {
           innovations_(view, wide.measurements),
           gate_(gate) {
         for (const VisibleObject& object : objects)
-            model_.detection_probability.push_back(object.detection_probability);
+            model_.detection_probability.push_back(object.detection_probability * object.visibility);
         model_.clutter_density = clutter_density;
         model_.gate_probability = parameters.gate_probability;
     }
@@ -250,6 +252,7 @@ void Batch::mergeMovers(const Part& candidates, InnovationFactor& given, BatchAs
         const Candidate& pair = candidates.problem.candidate(c);
         char& object_taken = taken[static_cast<std::size_t>(pair.object)];
         if (object_taken || out.of_detection[static_cast<std::size_t>(pair.detection)].object >= 0) continue;
+        if (weight(c) < least_standing) break;
         object_taken = 1;
 
         std::vector<WeighedInnovation> weighed;
@@ -271,6 +274,15 @@ void Batch::mergeMovers(const Part& candidates, InnovationFactor& given, BatchAs
         detection.bearing = wrapAngle(z.y());
         detection.covariance = merged.noise;
         accept(pair, candidates.in_whole[static_cast<std::size_t>(c)], out);
+        // All that its gate holds, weighed: (1 - P_D) / P(missed).
+        const auto object = static_cast<std::size_t>(pair.object);
+        out.of_detection[static_cast<std::size_t>(pair.detection)].likelihood_ratio =
+            (1 - model_.detection_probability[object]) / std::max(marginals.missed[object], 1e-12);
+    }
+    // Its detection stands for another: not missed.
+    for (const int c : order) {
+        const auto object = static_cast<std::size_t>(candidates.problem.candidate(c).object);
+        if (weight(c) >= least_standing && !taken[object]) out.in_doubt[object] = true;
     }
 }
 

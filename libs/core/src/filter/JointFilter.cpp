@@ -109,7 +109,7 @@ UpdateReport JointFilter::updateByAssociation(const RangeBearingSet& seen, Stamp
     const AssociatedBatch batch = association_.associate(*belief_, objects_, seen, report.innovations);
     update(batch.used, batch.known, report.innovations, now);
     startNamed(seen, now, report.innovations);
-    life_.follow(belief_, objects_, batch, now, simplestModel(), report.innovations);
+    life_.follow(belief_, objects_, batch, now, report.innovations);
     return report;
 }
 

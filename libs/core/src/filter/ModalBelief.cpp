@@ -15,9 +15,8 @@ void ModalBelief::start(std::unique_ptr<JointBank> bank) {
 }
 
 std::optional<BlockId> ModalBelief::addTarget(const RelativeGaussian& target) {
-    const bool room = settings_->chain.modes() == 1 || targets_ < max_exact_targets_;
-    if (!room && form_ == ImmForm::exact) return std::nullopt;
-    if (!room && form_ == ImmForm::automatic) becomeScalable();
+    if (!hasRoom()) return std::nullopt;
+    if (!fitsExact() && form_ == ImmForm::automatic) becomeScalable();
     ++targets_;
     return state_->addTarget(target);
 }

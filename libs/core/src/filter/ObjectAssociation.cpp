@@ -11,11 +11,9 @@ namespace {
 /// [m] by which landmarks may lie off where they are looked for, beyond what the robot's covariance says.
 constexpr double view_margin = 1.0;
 
-/// P_D of an object that may be hidden; never so small that a detection could not be its own.
-double detectionProbability(const std::optional<ObjectLifeRecord>& life, const LifeParameters& parameters) {
-    if (!life) return parameters.detection_probability;
-    const double visible = life->existence.visibility() / life->existence.probability();
-    return parameters.detection_probability * std::max(visible, 0.1);
+/// Never so small that a detection could not be its own.
+double visibility(const std::optional<ObjectLifeRecord>& life) {
+    return life ? std::max(life->existence.visibility() / life->existence.probability(), 0.1) : 1.0;
 }
 
 }  // namespace
@@ -106,12 +104,12 @@ AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue
     std::vector<VisibleObject> visible;
     for (const BlockId block : batch.landmarks)
         if (!named(batch.known.landmarks, block))
-            visible.push_back({block, ObjectKind::landmark,
-                               detectionProbability(objects.landmarkOf(block)->life, landmark_life_)});
+            visible.push_back({block, ObjectKind::landmark, landmark_life_.detection_probability,
+                               visibility(objects.landmarkOf(block)->life)});
     for (const TrackRecord& track : objects.tracks())
         if (!named(batch.known.targets, track.block))
             visible.push_back(
-                {track.block, ObjectKind::mover, detectionProbability(track.life, mover_life_)});
+                {track.block, ObjectKind::mover, mover_life_.detection_probability, visibility(track.life)});
     std::vector<int> nameless;
     for (std::size_t d = 0; d < seen.detections.size(); ++d)
         if (isAssociated(seen.detections[d])) nameless.push_back(static_cast<int>(d));

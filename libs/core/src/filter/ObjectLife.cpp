@@ -70,7 +70,7 @@ ParameterTable describe(ObjectLifeParameters& p, const std::string& name, Parame
               "Time that a mover keeps moving, on average.")
         .real("velocity_std", p.change.velocity_std, "m/s", Interval::positive(),
               "Of each velocity component of what begins to move.")
-        .real("decide_probability", p.decide_probability, "-", Interval::openProbability(),
+        .real("decide_probability", p.decide_probability, "-", Interval{0.5, 1, true, true},
               "P(moving) above which an object becomes a mover; below 1 - this it becomes a landmark.");
     return mixed;
 }
@@ -93,15 +93,17 @@ void ObjectLife::clear() {
     kinds_.clear();
     duplicates_ = DuplicateWatch(parameters_.landmarks.detection_probability, parameters_.merge_probability);
     lost_.clear();
+    last_scan_ = {};
 }
 
 void ObjectLife::predict(const RelativeStep& step, const TargetModel& model) {
     tentative_.predict(step, model);
     kinds_.predict(step, model);
+    lost_.predict(step.dt, model);
 }
 
 void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
-                        Stamp now, const TargetModel& model, std::vector<Innovation>& innovations) {
+                        Stamp now, std::vector<Innovation>& innovations) {
     Sights sights;
     for (const auto* known : {&batch.known.landmarks, &batch.known.targets})
         for (const auto& sight : *known) sights[sight.block] = sight.detection;
@@ -117,8 +119,7 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
     for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
     for (const ConfirmedObject& confirmed :
          tentative_.update(batch.seen, now, unexplained, batch.may_be_new, consistency_))
-        admit(belief, objects, confirmed, now, model,
-              innovations[static_cast<std::size_t>(confirmed.detection)]);
+        admit(belief, objects, confirmed, now, innovations[static_cast<std::size_t>(confirmed.detection)]);
 
     if (tentative_.size() > 0) poses_.remember(*belief, now);
     for (const BlockId block : belief->bank().landmarksWithinReach())
@@ -148,15 +149,17 @@ bool ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
     const LifeParameters& parameters = kind == ObjectKind::mover ? parameters_.movers : parameters_.landmarks;
     life.existence.pass(secondsBetween(life.looked, now), parameters);
     life.looked = now;
-    // What may move leaves the place where it stood. Out of view nothing is held against it.
+    if (isInDoubt(batch, block)) return true;
+    const auto sight = sights.find(block);
+    if (sight == sights.end() && !surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))
+        return true;  // out of view, or at its rim, nothing is held against it
+    // What may move leaves the place where it stood.
     if (kind == ObjectKind::landmark && life.seen_as == ObjectKind::unknown)
         life.existence.mayLeave(secondsBetween(last_scan_, now), parameters_.change.start_every);
-    if (isInDoubt(batch, block)) return true;
-    if (const auto sight = sights.find(block); sight != sights.end()) {
+    if (sight != sights.end()) {
         life.existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
         return true;
     }
-    if (!surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_)) return true;
     life.existence.missed(parameters.detection_probability);
     return false;
 }
@@ -258,7 +261,7 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
         const RangeBearingDetection& detection = detectionOf(batch, d);
         const Pose2& sensor = sensorOf(batch, detection);
         life->moving = kinds_.look(block, life->moving, detection, sensor, consistency_);
-        if (landmark && life->moving < parameters_.decide_probability) continue;
+        if (landmark && (life->moving < parameters_.decide_probability || !belief.hasRoom())) continue;
         if (track && life->moving > 1 - parameters_.decide_probability) continue;
 
         if (landmark)
@@ -270,10 +273,8 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
 
 // An object's position begins anew with the detection that shows its kind: what came before was of another.
 
-std::optional<TrackId> ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalogue& objects,
-                                               const LandmarkRecord& landmark,
-                                               const RangeBearingDetection& detection, const Pose2& sensor,
-                                               Stamp now) {
+TrackId ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark,
+                                const RangeBearingDetection& detection, const Pose2& sensor, Stamp now) {
     const RelativeGaussian point = firstSight(detection, sensor, consistency_);
     RelativeGaussian mover = kinds_.asMover(landmark.block);
     mover.mean.head<2>() = point.mean;
@@ -282,9 +283,7 @@ std::optional<TrackId> ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalo
     mover.covariance.topLeftCorner<2, 2>() = point.covariance;
     const LandmarkRecord was = landmark;
     removeLandmark(belief, objects, was);
-    const std::optional<BlockId> target = belief.addTarget(mover);
-    if (!target) return std::nullopt;
-    TrackRecord& started = objects.addTrack(*target, {}, now);
+    TrackRecord& started = objects.addTrack(belief.addTarget(mover).value(), {}, now);
     started.first_seen = was.first_seen;
     objects.giveLife(started, *was.life);
     return started.id;
@@ -336,13 +335,11 @@ std::vector<int> ObjectLife::findMoved(ModalBelief& belief, ObjectCatalogue& obj
         landmark->life->moving =
             kinds_.lookAside(aside.block, detection, sensor.pose, parameters_.landmarks.detection_probability,
                              unexplainedDensity(parameters_.landmarks, sensor));
-        if (landmark->life->moving < parameters_.decide_probability) continue;
-        const std::optional<TrackId> track =
-            becomeMover(belief, objects, *landmark, detection, sensor.pose, now);
-        if (!track) continue;
+        if (landmark->life->moving < parameters_.decide_probability || !belief.hasRoom()) continue;
+        const TrackId track = becomeMover(belief, objects, *landmark, detection, sensor.pose, now);
         Innovation& innovation = innovations[static_cast<std::size_t>(aside.detection)];
         innovation.kind = ObjectKind::mover;
-        innovation.track = *track;
+        innovation.track = track;
         innovation.outcome = Outcome::initiated;
         unexplained.erase(std::find(unexplained.begin(), unexplained.end(), aside.detection));
     }
@@ -362,7 +359,7 @@ std::vector<PastSight> ObjectLife::pastSights(const TentativeObject& object, Sta
 }
 
 void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed,
-                       Stamp now, const TargetModel& model, Innovation& innovation) {
+                       Stamp now, Innovation& innovation) {
     const TentativeObject& object = confirmed.object;
     const ObjectLifeRecord life{object.kind, object.existence, object.track.movingProbability(), now};
     if (!confirmed.moving) {
@@ -382,8 +379,7 @@ void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const Conf
         const std::optional<BlockId> block = belief.addTarget(mover);
         if (!block) return;
         const TargetBelief born = belief->target(*block);
-        TrackRecord& track =
-            objects.addTrack(*block, {}, now, lost_.continuedBy(born.mean, born.covariance, now, model));
+        TrackRecord& track = objects.addTrack(*block, {}, now, lost_.continuedBy(born.mean, born.covariance));
         track.first_seen = object.first_seen;
         objects.giveLife(track, life);
         innovation.kind = ObjectKind::mover;

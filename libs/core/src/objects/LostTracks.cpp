@@ -32,13 +32,18 @@ void LostTracks::forgetOld(Stamp now) {
         tracks_.end());
 }
 
-std::optional<TrackId> LostTracks::continuedBy(const Vector6& mean, const Matrix6& covariance, Stamp now,
-                                               const TargetModel& model) {
+void LostTracks::predict(double dt, const TargetModel& model) {
+    for (LostTrack& lost : tracks_) {
+        const TargetPrediction f = predictTarget(model, lost.mean, dt);
+        lost.mean = f.mean;
+        lost.covariance = f.F * lost.covariance * f.F.transpose() + f.Q;
+    }
+}
+
+std::optional<TrackId> LostTracks::continuedBy(const Vector6& mean, const Matrix6& covariance) {
     auto found = tracks_.end();
     for (auto lost = tracks_.begin(); lost != tracks_.end(); ++lost) {
-        const TargetPrediction f = predictTarget(model, lost->mean, secondsBetween(lost->at, now));
-        const Matrix6 P = f.F * lost->covariance * f.F.transpose() + f.Q;
-        if (!(distance(f.mean, P, mean, covariance) <= gate_)) continue;
+        if (!(distance(lost->mean, lost->covariance, mean, covariance) <= gate_)) continue;
         if (found != tracks_.end()) return std::nullopt;
         found = lost;
     }

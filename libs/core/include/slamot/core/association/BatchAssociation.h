@@ -31,7 +31,8 @@ ParameterTable describe(AssociationParameters& parameters, const std::string& na
 struct VisibleObject {
     BlockId block;
     ObjectKind kind;  ///< landmark or mover; detections of unknown kind may come from either
-    double detection_probability;
+    double detection_probability;  ///< while nothing hides it
+    double visibility = 1;         ///< part of the time that nothing does
 };
 
 struct BatchAssociation {
@@ -46,7 +47,7 @@ struct BatchAssociation {
     /// separation gate it lies are paired with others of its sensor: it may be of something new. Never where
     /// the method of a kind that it may be of is `known`.
     std::vector<bool> may_be_new;
-    /// By number of object: a landmark whose pair is undecided; it was neither seen nor missed.
+    /// By number of object: one whose pair is undecided; it was neither seen nor missed.
     std::vector<bool> in_doubt;
 
     /// JPDA: what a mover is to be updated with in place of its detection, weighed over all that its gate

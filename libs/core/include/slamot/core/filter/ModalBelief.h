@@ -20,11 +20,14 @@ class ModalBelief {
     ModalState* operator->() { return state_.get(); }
     const ModalState* operator->() const { return state_.get(); }
 
-    /// None where the exact form has no room for another.
+    /// Whether another mover can be added: the exact form has only so many.
+    bool hasRoom() const { return form_ != ImmForm::exact || fitsExact(); }
+    /// None where there is no room.
     std::optional<BlockId> addTarget(const RelativeGaussian& target);
     void removeTarget(BlockId target);
 
   private:
+    bool fitsExact() const { return settings_->chain.modes() == 1 || targets_ < max_exact_targets_; }
     void becomeScalable();
     void becomeExact();
 

@@ -1,6 +1,6 @@
 #pragma once
-// Which object of the joint state each detection of a batch comes from: by the identity the log gives, else by
-// association.
+// Which object of the joint state each detection of a batch comes from: by the identity the log gives, else
+// by association.
 #include "slamot/core/association/BatchAssociation.h"
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/estimation/ModalState.h"
@@ -10,13 +10,13 @@ namespace slamot {
 
 /// A batch with what is known of its detections.
 struct AssociatedBatch {
-    RangeBearingSet seen;             ///< as handed in
-    RangeBearingSet used;             ///< what to update with: JPDA merges detections of movers
-    KnownObjects known;               ///< in `used`
-    std::vector<BlockId> landmarks;   ///< that may be in some sensor's view
-    std::vector<int> unexplained;     ///< detections without identity that no object explains
-    std::vector<bool> may_be_new;     ///< by number of detection
-    std::vector<BlockId> in_doubt;    ///< landmarks whose pairs are undecided
+    RangeBearingSet seen;                  ///< as handed in
+    RangeBearingSet used;                  ///< what to update with: JPDA merges detections of movers
+    KnownObjects known;                    ///< in `used`
+    std::vector<BlockId> landmarks;        ///< that may be in some sensor's view
+    std::vector<int> unexplained;          ///< detections without identity that no object explains
+    std::vector<bool> may_be_new;          ///< by number of detection
+    std::vector<BlockId> in_doubt;         ///< landmarks whose pairs are undecided
     std::vector<double> likelihood_ratio;  ///< by number of detection: P_D N(nu; 0, S) / c of its pair
 };
 

@@ -42,13 +42,13 @@ class ObjectLife {
 
     void clear();
     /// Whether there is anything beside the joint state.
-    bool busy() const { return tentative_.size() > 0 || kinds_.watching(); }
+    bool busy() const { return tentative_.size() > 0 || kinds_.watching() || !lost_.empty(); }
     /// The robot has moved by `step`.
     void predict(const RelativeStep& step, const TargetModel& model);
 
     /// After the update with `batch`: what its detections, and those that were missing, say of all objects.
     void follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch, Stamp now,
-                const TargetModel& model, std::vector<Innovation>& innovations);
+                std::vector<Innovation>& innovations);
 
     /// A track without identity has ended: it may come back.
     void lost(const ModalState& belief, const TrackRecord& track, Stamp now);
@@ -70,9 +70,8 @@ class ObjectLife {
     /// Landmarks that move, and movers that stand still.
     void changeKinds(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
                      const Sights& sights, Stamp now);
-    std::optional<TrackId> becomeMover(ModalBelief& belief, ObjectCatalogue& objects,
-                                       const LandmarkRecord& landmark, const RangeBearingDetection& detection,
-                                       const Pose2& sensor, Stamp now);
+    TrackId becomeMover(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark,
+                        const RangeBearingDetection& detection, const Pose2& sensor, Stamp now);
     void becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track,
                         const RangeBearingDetection& detection, const Pose2& sensor, Stamp now);
     /// A landmark that starts to move leaves its gate: what was detected where it would be then. Gives the
@@ -84,7 +83,7 @@ class ObjectLife {
     void removeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark);
     void removeTrack(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track);
     void admit(ModalBelief& belief, ObjectCatalogue& objects, const ConfirmedObject& confirmed, Stamp now,
-               const TargetModel& model, Innovation& innovation);
+               Innovation& innovation);
 
     /// What the joint state can still take in of an object's sights.
     std::vector<PastSight> pastSights(const TentativeObject& object, Stamp now) const;

@@ -1,6 +1,6 @@
 #pragma once
-// Where the robot was at its latest scans, as part of the joint state: what was seen then can be taken in when
-// it is known to have been an object, with all its correlations.
+// Where the robot was at its latest scans, as part of the joint state: what was seen then can be taken in
+// when it is known to have been an object, with all its correlations.
 #include "slamot/core/estimation/ModalState.h"
 
 namespace slamot {
