@@ -19,12 +19,17 @@ class OddLogs(SlamotTest):
         self.assertIn("needs detections", self.slamot("info", self.log("no_detections")).stdout)
 
     def test_without_identities(self):
-        self.run_log(self.log("no_identities"), code=2, says=["no_identities.rawlog", "600 detections", "identities"])
-        self.assertEqual(self.partFiles(), sorted(p.name for p in self.path("out").iterdir()))
         told = self.slamot("info", self.log("no_identities")).stdout
-        self.assertRegex(told, r"ekf_slamot +needs identities, the log has none")
-        self.assertRegex(told, r"dead_reckoning +can use it")
-        self.assertRegex(self.slamot("info", self.log("good")).stdout, r"ekf_slamot +can use it")
+        self.assertRegex(told, r"ekf_slamot +can use it if it does without identities: the log has none")
+        self.assertRegex(told, r"dead_reckoning +can use it\n")
+        self.assertRegex(self.slamot("info", self.log("good")).stdout, r"ekf_slamot +can use it\n")
+        self.run_log(self.log("no_identities"))
+
+    def test_without_identities_where_only_they_count(self):
+        known = [text for kind in ("landmarks", "movers") for text in ("--set", f"ekf_slamot.association.{kind}=known")]
+        self.run_log(self.log("no_identities"), *known, code=2,
+                     says=["no_identities.rawlog", "600 detections", "identities"])
+        self.assertEqual(self.partFiles(), sorted(p.name for p in self.path("out").iterdir()))
 
     def test_with_unknown_labels_only(self):
         self.run_log(self.log("unknown_labels"), code=2, says=["100 of 'front camera' (no-role-in-[sensors])"])

@@ -52,6 +52,7 @@ file = ekf.ini
 [config.blind]
 file = ekf.ini
 identities.landmarks = hidden
+ekf_slamot.association.landmarks = known
 on = near
 """
 RUNS = 12 * (3 + 2)

@@ -50,7 +50,7 @@ void printUses(const LogSummary& summary) {
         const bool needs = registry.createEstimator(plugin.name)->usesDetections();
         fmt::print("  {:16} {}\n", plugin.name,
                    !needs || identities ? "can use it"
-                   : detections         ? "needs identities, the log has none"
+                   : detections         ? "can use it if it does without identities: the log has none"
                                         : "needs detections");
     }
 }
