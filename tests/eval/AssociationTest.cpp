@@ -146,6 +146,25 @@ TEST(Association, TentativeDetectionsAreNeitherRightNorWrong) {
     EXPECT_EQ(m->all.clutter, 0);
 }
 
+TEST(Association, TentativeDetectionsOfWhatIsInTheEstimateAreMisses) {
+    // Ten looks at landmark 5: one goes into landmark 0, eight are left aside, one more is paired rightly. A
+    // filter that leaves undecided what it has must not look the better for it.
+    Log log;
+    log.landmark(5).last().outcome = Outcome::tentative;  // before: neither right nor wrong
+    log.landmark(5).toLandmark(0, Outcome::initiated);
+    for (int i = 0; i < 7; ++i) log.landmark(5).last().outcome = Outcome::tentative;
+    log.landmark(5).toLandmark(0);
+    // Landmark 6 went into an object of another: it is not in the estimate.
+    log.landmark(6).toLandmark(0);
+    log.landmark(6).last().outcome = Outcome::tentative;
+    const auto m = associationMetrics(log.run, log.truth);
+    EXPECT_EQ(m->landmarks.tentative, 2);
+    EXPECT_EQ(m->landmarks.detections, 10);
+    EXPECT_EQ(m->landmarks.found, 2);
+    EXPECT_DOUBLE_EQ(m->landmarks.recall, 0.2);
+    EXPECT_DOUBLE_EQ(m->landmarks.precision, 2 / 3.0);
+}
+
 /// A detection that the log has at t = 0 under `number` of `count`, in landmark `landmark`.
 InnovationRow numbered(int number, int count, std::int64_t landmark) {
     // The number among those the run took in, which tells nothing here.

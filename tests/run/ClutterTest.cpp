@@ -190,7 +190,8 @@ TEST_F(ClutterTest, NoiseIsThatOfTheOthersOrTheConfigs) {
 
     config.noise.range_std = 0.5;
     config.noise.bearing_std = 0.25;
-    for (const RangeBearingDetection& d : detectionsOf(stepsOf(log).at(0).detections))
+    const auto stated = stepsOf(log);
+    for (const RangeBearingDetection& d : detectionsOf(stated.at(0).detections))
         EXPECT_TRUE(near(d.covariance, Matrix2(Vector2(0.25, 0.0625).asDiagonal()), 1e-15));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -154,8 +155,10 @@ Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Trut
     for (const auto& [object, source] : stands_for) objects_of[source][object] = sources_of[object][source];
     const std::map<Source, Object> object_of = mostFrequent(objects_of);
 
+    std::set<Source> in_estimate;  // what some object stands for by then
     for (const auto& [source, object, tentative] : detections) {
-        if (tentative) {
+        // A detection of what the estimate has already is a miss, whatever else it was kept for.
+        if (tentative && !(source && in_estimate.count(*source) > 0)) {
             ++(!source         ? metrics.tentative_clutter
                : source->first ? metrics.movers.tentative
                                : metrics.landmarks.tentative);
@@ -166,6 +169,7 @@ Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Trut
             const auto expected = object_of.find(*source);
             ++scores.detections;
             scores.found += object && expected != object_of.end() && expected->second == *object;
+            if (object && stands_for.at(*object) == *source) in_estimate.insert(*source);
         }
         if (object) {
             AssociationScores& scores = object->first ? metrics.movers : metrics.landmarks;

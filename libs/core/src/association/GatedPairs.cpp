@@ -6,17 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "slamot/core/models/RangeBearing.h"
-
 namespace slamot {
 namespace {
-
-/// One row's squared distance is never above that of both: what fails here fails the gate.
-bool mayPass(const ExpectedDetection& expected, const RangeBearingDetection& detection, double gate) {
-    const Vector2 nu = rangeBearingResidual(detection.z(), expected.z);
-    const Vector2 variance = expected.covariance.diagonal() + detection.covariance.diagonal();
-    return (nu.array().square() <= (1 + 1e-12) * gate * variance.array()).all();
-}
 
 double logDensity(const Linearisation& pair) {
     return -0.5 * (pair.nis + std::log(pair.S.determinant())) - std::log(2.0 * pi);
@@ -39,7 +30,7 @@ GatedPairs gatedPairs(const JointView& state, const std::vector<BlockId>& object
         for (std::size_t o = 0; o < objects.size(); ++o) {
             if (may_pair && !may_pair(d, static_cast<int>(o))) continue;
             if (!expected[o]) expected[o] = expectedSight(state, objects[o], sensor, consistency);
-            if (!mayPass(expected[o]->detection, detection, gate)) continue;
+            if (!rowsLieWithin(gate, expected[o]->detection, detection)) continue;
             const Linearisation pair = expected[o]->with(detection);
             if (!(pair.nis <= gate)) continue;
             candidates.push_back({d, static_cast<int>(o), pair.nis, logDensity(pair)});

@@ -21,6 +21,12 @@ Eigen::Matrix<double, 5, 5> marginal(const JointView& state, BlockId from, Block
 
 }  // namespace
 
+bool rowsLieWithin(double gate, const ExpectedDetection& expected, const RangeBearingDetection& detection) {
+    const Vector2 nu = rangeBearingResidual(detection.z(), expected.z);
+    const Vector2 variance = expected.covariance.diagonal() + detection.covariance.diagonal();
+    return (nu.array().square() <= (1 + 1e-12) * gate * variance.array()).all();
+}
+
 ExpectedSight expectedSight(const JointView& state, BlockId block, const Pose2& sensor,
                             Consistency consistency, BlockId from) {
     const Vector3 pose = state.mean(from);

@@ -1,6 +1,7 @@
 #include "slamot/core/filter/ObjectAssociation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slamot/core/objects/FieldOfView.h"
 #include "slamot/core/objects/TentativeObjects.h"
@@ -14,6 +15,19 @@ constexpr double view_margin = 1.0;
 /// Never so small that a detection could not be its own.
 double visibility(const std::optional<ObjectLifeRecord>& life) {
     return life ? std::max(life->existence.visibility() / life->existence.probability(), 0.1) : 1.0;
+}
+
+/// The sensor with limits that contain what it has just detected: readings beyond the stated ones come from
+/// somewhere too.
+RangeBearingSensor reaching(const RangeBearingSet& seen, int number) {
+    RangeBearingSensor sensor = seen.sensors[static_cast<std::size_t>(number)];
+    for (const RangeBearingDetection& detection : seen.detections) {
+        if (detection.sensor != number) continue;
+        sensor.max_range = std::max(sensor.max_range, detection.range);
+        sensor.min_range = std::min(sensor.min_range, detection.range);
+        sensor.field_of_view = std::max(sensor.field_of_view, 2 * std::abs(detection.bearing));
+    }
+    return sensor;
 }
 
 }  // namespace
@@ -64,10 +78,10 @@ std::vector<BlockId> ObjectAssociation::landmarksInView(const ModalState& belief
     const PoseGaussian robot{Pose2::fromVector(belief.mean(robot_block)),
                              belief.covariance(robot_block, robot_block)};
     std::vector<BlockId> out;
-    for (const RangeBearingSensor& sensor : seen.sensors) {
-        if (!reports(sensor, ObjectKind::landmark) || !(sensor.max_range > 0)) continue;
-        const std::vector<BlockId> in_view =
-            objects.positions().inView(robot, sensor, parameters_.gate_probability, view_margin);
+    for (std::size_t s = 0; s < seen.sensors.size(); ++s) {
+        if (!reports(seen.sensors[s], ObjectKind::landmark) || !(seen.sensors[s].max_range > 0)) continue;
+        const std::vector<BlockId> in_view = objects.positions().inView(
+            robot, reaching(seen, static_cast<int>(s)), parameters_.gate_probability, view_margin);
         out.insert(out.end(), in_view.begin(), in_view.end());
     }
     std::sort(out.begin(), out.end());

@@ -14,15 +14,6 @@ constexpr double least_per_scan = 1e-6;
 /// Objects that take longer to confirm lose their first sights.
 constexpr std::size_t most_sights = 20;
 
-/// One row's squared distance is never above that of both: what fails here fails the gate.
-bool mayPass(const ExpectedDetection& expected, const RangeBearingDetection& detection, double gate) {
-    const double range = detection.range - expected.z.x();
-    if (range * range > (1 + 1e-12) * gate * (expected.covariance(0, 0) + detection.covariance(0, 0)))
-        return false;
-    const double bearing = angleDifference(detection.bearing, expected.z.y());
-    return bearing * bearing <= (1 + 1e-12) * gate * (expected.covariance(1, 1) + detection.covariance(1, 1));
-}
-
 }  // namespace
 
 double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor) {
@@ -102,7 +93,7 @@ AssociationProblem TentativeObjects::candidates(const Batch& batch, const std::v
         for (std::size_t o = 0; o < objects_.size(); ++o) {
             const TentativeObject& object = objects_[o];
             if (detection.kind != object.kind && detection.kind != ObjectKind::unknown) continue;
-            if (!mayPass(expected[o], detection, gate)) continue;
+            if (!rowsLieWithin(gate, expected[o], detection)) continue;
             const auto match = object.track.match(detection, sensor);
             if (match.nis <= gate)
                 pairs.push_back({static_cast<int>(i), static_cast<int>(o), match.nis, match.log_likelihood});

@@ -10,11 +10,11 @@
 namespace slamot::eval {
 
 struct AssociationScores {
-    /// Detections that have a true source, tentative ones left out; those of them that went into the object
+    /// Detections that have a true source, undecided ones left out; those of them that went into the object
     /// that stands for it.
     std::int64_t detections = 0, found = 0;
-    /// Detections that have a true source and are tentative: where they belong is not decided, so they are
-    /// neither right nor wrong.
+    /// Undecided: detections that have a true source for which nothing in the estimate stands yet, and are
+    /// tentative. Neither right nor wrong.
     std::int64_t tentative = 0;
     /// Detections that went into an object; those of them whose source the object stands for; those that are
     /// clutter.

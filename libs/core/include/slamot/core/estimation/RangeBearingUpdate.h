@@ -12,6 +12,10 @@ struct ExpectedDetection {
     Matrix2 covariance;
 };
 
+/// Whether each row alone lies within the gate: what fails here fails the gate of both, at the price of two
+/// comparisons.
+bool rowsLieWithin(double gate, const ExpectedDetection& expected, const RangeBearingDetection& detection);
+
 struct Linearisation {
     LinearMeasurement measurement;
     Matrix2 S;   ///< innovation covariance at the predicted state, second-order terms included
