@@ -30,6 +30,7 @@ void addConvert(CLI::App& app, Action& chosen);
 void addInfo(CLI::App& app, Action& chosen);
 void addRun(CLI::App& app, Action& chosen);
 void addEval(CLI::App& app, Action& chosen);
+void addReport(CLI::App& app, Action& chosen);
 void addStudy(CLI::App& app, Action& chosen);
 void addPlugins(CLI::App& app, Action& chosen);
 void addConfig(CLI::App& app, Action& chosen);

@@ -7,6 +7,7 @@
 #include "Progress.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/report/Overview.h"
+#include "slamot/report/RunReport.h"
 #include "slamot/run/RunJob.h"
 
 namespace slamot::app {
@@ -38,6 +39,15 @@ void writeOverview(const run::JobResult& result, const Truth* truth, const Optio
     }
 }
 
+/// From the files of the run, so that `slamot report` makes the same page again.
+void writeReport(const Options& options) {
+    try {
+        report::writeRunReport(options.out);
+    } catch (const report::ReportError& error) {
+        fmt::print(stderr, "slamot: no report: {}\n", error.what());
+    }
+}
+
 void printSummary(const run::JobResult& result, const Options& options, const Verbosity& verbosity) {
     const auto& counts = result.summary["counts"];
     const auto& time = result.summary["time"];
@@ -61,7 +71,7 @@ void printSummary(const run::JobResult& result, const Options& options, const Ve
     else if (result.summary["truth"].is_null())
         fmt::print("  no truth ({}), so no errors are computed\n",
                    options.truth == "none" ? "--truth none" : truthFolderOf(options.log) + " is not there");
-    fmt::print("outputs in {}\n", options.out);
+    fmt::print("outputs in {}{}\n", options.out, result.writes_report ? ", look at report.html" : "");
 }
 
 int runJob(const Options& options, const Verbosity& verbosity) {
@@ -96,6 +106,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
     }
     for (const std::string& warning : result.warnings) fmt::print(stderr, "slamot: warning: {}\n", warning);
     if (result.writes_figure) writeOverview(result, request.truth, options);
+    if (result.writes_report) writeReport(options);
     if (!verbosity.quiet) printSummary(result, options, verbosity);
     switch (result.status) {
         case run::RunStatus::complete: return exit_success;

@@ -61,6 +61,7 @@ int runMain(int argc, char** argv) {
     addInfo(app, action);
     addRun(app, action);
     addEval(app, action);
+    addReport(app, action);
     addStudy(app, action);
     addPlugins(app, action);
     addConfig(app, action);

@@ -1,5 +1,7 @@
 #include "slamot/report/FigureSpec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -50,10 +52,29 @@ json heading(const std::string& text, double y, double size, const char* fill, b
                 {"fill", constant(fill)}}}}}};
 }
 
+/// Names of layers with the marks that draw them, and how many symbols there are.
+json layersMeta(const Figure& figure) {
+    json layers = json::array();
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+        for (std::size_t j = 0; j < figure.panels[i].layers.size(); ++j) {
+            const std::string label = labelOf(figure.panels[i].layers[j]);
+            if (label.empty()) {
+                continue;
+            }
+            const auto same = std::find_if(layers.begin(), layers.end(),
+                                           [&](const json& layer) { return layer["label"] == label; });
+            json& layer = same == layers.end() ? layers.emplace_back() : *same;
+            layer["label"] = label;
+            layer["marks"].push_back(fmt::format("mark_p{}_l{}", i, j));
+        }
+    }
+    return layers;
+}
+
 }  // namespace
 
 json figureSpec(const Figure& figure) {
-    json data = json::array(), marks = json::array();
+    json data = json::array(), marks = json::array(), panels = json::array();
     double y = edge;
     if (!figure.title.empty()) {
         marks.push_back(
@@ -88,6 +109,7 @@ json figureSpec(const Figure& figure) {
         row_height = std::max(row_height, panel.height);
         data.insert(data.end(), panel.data.begin(), panel.data.end());
         marks.insert(marks.end(), panel.marks.begin(), panel.marks.end());
+        panels.push_back(panel.meta);
     }
     return {{"$schema", "https://vega.github.io/schema/vega/v5.json"},
             {"description", figure.title},
@@ -97,6 +119,7 @@ json figureSpec(const Figure& figure) {
             {"autosize", "none"},
             {"background", "white"},
             {"config", {{"axis", axisConfig()}}},
+            {"usermeta", {{"panels", panels}, {"layers", layersMeta(figure)}}},
             {"data", data},
             {"marks", marks}};
 }

@@ -65,6 +65,8 @@ struct Swatch {
     json operator()(const Texts&) const { return nullptr; }
 };
 
+}  // namespace
+
 std::string labelOf(const Layer& layer) {
     struct Label {
         std::string operator()(const HeatMap&) const { return {}; }
@@ -78,8 +80,6 @@ std::string labelOf(const Layer& layer) {
     };
     return std::visit(Label{}, layer);
 }
-
-}  // namespace
 
 LegendSpec legendSpec(const Panel& panel, double width) {
     LegendSpec legend;

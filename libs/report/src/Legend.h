@@ -16,6 +16,9 @@ struct LegendSpec {
 /// `width` pixels wide.
 LegendSpec legendSpec(const Panel& panel, double width);
 
+/// What the legend calls a layer; empty for none.
+std::string labelOf(const Layer& layer);
+
 /// Of several panels, each label once.
 LegendSpec sharedLegendSpec(const std::vector<Panel>& panels, double width);
 

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "OverviewView.h"
+#include "TrackStyles.h"
 
 namespace slamot::report {
 namespace {
@@ -19,39 +21,33 @@ constexpr std::size_t names_in_legend = 10;
 
 /// A track's estimated way, with gaps where it was absent.
 struct TrackWay {
-    TrackId id;
-    SourceId source;
+    StyledTrack track;
     Points2 points;
-    std::size_t length = 0;  ///< stamps at which it was present
 };
 
+/// The longest first.
 std::vector<TrackWay> trackWays(const eval::RunRecord& run) {
-    std::map<TrackId, TrackWay> ways;
+    std::map<TrackId, Points2> ways;
     for (const eval::RobotRow& row : run.trajectory) {
-        for (auto& [id, way] : ways) {
-            way.points.emplace_back(nan, nan);
+        for (auto& [id, points] : ways) {
+            points.emplace_back(nan, nan);
         }
         const auto present = run.tracks.find(row.stamp);
         if (present == run.tracks.end()) {
             continue;
         }
         for (const TrackEstimate& track : present->second) {
-            TrackWay& way = ways[track.id];
-            way.id = track.id;
-            way.source = track.source;
-            if (!way.points.empty()) {
-                way.points.pop_back();
+            Points2& points = ways[track.id];
+            if (!points.empty()) {
+                points.pop_back();
             }
-            way.points.push_back(track.mean.head<2>());
-            ++way.length;
+            points.push_back(track.mean.head<2>());
         }
     }
     std::vector<TrackWay> sorted;
-    for (auto& [id, way] : ways) {
-        sorted.push_back(std::move(way));
+    for (const StyledTrack& track : styledTracks(run)) {
+        sorted.push_back({track, std::move(ways[track.id])});
     }
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const TrackWay& a, const TrackWay& b) { return a.length > b.length; });
     return sorted;
 }
 
@@ -149,48 +145,36 @@ void addLandmarks(Panel& map, const MapContent& content) {
     }
 }
 
-/// What the tracks of one object have in common.
-struct ObjectEntry {
-    SeriesStyle style;
-    std::size_t tracks = 0;
-    bool named = false;
-};
-
 /// Tracks of one object share its colour and its entry in the legend; what is true of it is the same colour,
 /// pale. An object without a track is grey.
 void addTargets(Panel& map, const MapContent& content) {
-    std::map<SourceId, ObjectEntry> objects;
-    std::size_t styles = 0, names = 0;
-    for (const TrackWay& track : content.tracks) {
-        if (track.source.valid() && objects[track.source].tracks++ == 0) {
-            objects[track.source].style = seriesStyle(styles++);
-        }
+    std::map<SourceId, std::size_t> tracks_of;
+    std::map<SourceId, std::string> colours;
+    for (const TrackWay& way : content.tracks) {
+        ++tracks_of[way.track.source];
+        colours[way.track.source] = way.track.style.colour;
     }
+    std::set<SourceId> named;
+    std::size_t names = 0;
     std::vector<Layer> estimates;
-    for (const TrackWay& track : content.tracks) {
-        ObjectEntry anonymous;
-        ObjectEntry& object = track.source.valid() ? objects[track.source] : anonymous;
-        if (!track.source.valid()) {
-            object = {seriesStyle(styles++), 1, false};
-        }
+    for (const TrackWay& way : content.tracks) {
+        const StyledTrack& track = way.track;
         std::string label;
-        if (!object.named && names < names_in_legend) {
-            label = object.tracks > 1 ? fmt::format("Object {}, {} tracks", track.source.value, object.tracks)
-                    : track.source.valid()
-                        ? fmt::format("Track {} (object {})", track.id.value, track.source.value)
-                        : fmt::format("Track {}", track.id.value);
-            object.named = true;
+        if (names < names_in_legend && (!track.source.valid() || named.insert(track.source).second)) {
+            const std::size_t count = tracks_of[track.source];
+            label = track.source.valid() && count > 1
+                        ? fmt::format("Object {}, {} tracks", track.source.value, count)
+                        : nameOf(track);
             ++names;
         }
-        estimates.push_back(Line{label, track.points, object.style.colour, 1.6, object.style.dash});
+        estimates.push_back(Line{label, way.points, track.style.colour, 1.6, track.style.dash});
     }
     if (!content.true_targets.empty()) {  // an entry of the legend without points of its own
         map.layers.push_back(trueLine("Moving objects, true", {}, colour::grey));
     }
     for (const auto& [id, points] : content.true_targets) {
-        const auto object = objects.find(id);
-        map.layers.push_back(
-            trueLine("", points, object == objects.end() ? colour::grey : object->second.style.colour));
+        const auto object = colours.find(id);
+        map.layers.push_back(trueLine("", points, object == colours.end() ? colour::grey : object->second));
     }
     map.layers.insert(map.layers.end(), estimates.begin(), estimates.end());
 }

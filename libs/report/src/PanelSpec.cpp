@@ -81,12 +81,12 @@ std::vector<double> logarithmicTicks(const AxisView& view, double count) {
     return ticks.size() < readable ? evenTicks(view) : ticks;
 }
 
-json axisSpec(const Axis& axis, const AxisView& view, bool upright) {
+json axisSpec(const Axis& axis, const AxisView& view, bool upright, bool map = false) {
     json result = {{"scale", upright ? "y" : "x"},     {"orient", upright ? "left" : "bottom"},
                    {"title", axisTitle(axis)},         {"grid", axis.categories.empty() || upright},
                    {"gridScale", upright ? "x" : "y"}, {"labelOverlap", "greedy"}};
-    // Labels a fixed number of pixels apart, so that both axes of a map get the same step.
-    const double count = view.pixels / (upright ? 55 : 75);
+    // Labels a fixed number of pixels apart; both axes of a map get the same step.
+    const double count = view.pixels / (!upright ? 75 : map ? 55 : 38);
     json& label = result["encode"]["labels"]["update"]["text"]["signal"];
     if (upright) {
         result["minExtent"] = result["maxExtent"] = tick_label_room;
@@ -166,6 +166,15 @@ json colourBar(const HeatMap& map, const std::string& name, double x, double y, 
     return bar;
 }
 
+/// Moving is for plain numbers: ticks of logarithmic axes are chosen here, and images have a fixed size.
+json axisMeta(const Axis& axis, const AxisView& view, bool has_heat_map) {
+    return {{"domain", {view.low, view.high}},
+            {"log", view.logarithmic},
+            {"categories", !axis.categories.empty()},
+            {"title", axisTitle(axis)},
+            {"moves", !view.logarithmic && axis.categories.empty() && !has_heat_map}};
+}
+
 }  // namespace
 
 PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double top, double width) {
@@ -187,7 +196,7 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
     plot["encode"]["update"]["stroke"] = constant(colour::frame);
     plot["scales"] =
         json::array({scale("x", view.x, {0, plot_width}), scale("y", view.y, {panel.height, 0})});
-    plot["axes"] = json::array({axisSpec(panel.x, view.x, false), axisSpec(panel.y, view.y, true)});
+    plot["axes"] = json::array({axisSpec(panel.x, view.x, false), axisSpec(panel.y, view.y, true, panel.equal_aspect)});
     plot["marks"] = json::array();
     for (std::size_t i = 0; i < panel.layers.size(); ++i) {
         const std::string name = fmt::format("p{}_l{}", index, i);
@@ -196,6 +205,7 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
             spec.data.push_back({{"name", name}, {"values", std::move(layer.data)}});
         }
         for (json& mark : layer.marks) {
+            mark["name"] = "mark_" + name;
             plot["marks"].push_back(std::move(mark));
         }
     }
@@ -216,6 +226,13 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
         spec.marks.push_back(colourBar(*heat_map, fmt::format("colours_{}", index),
                                        plot_left + plot_width + right_margin, plot_top, panel.height));
     }
+    spec.meta = {{"left", plot_left},
+                 {"top", plot_top},
+                 {"width", plot_width},
+                 {"height", panel.height},
+                 {"equal", panel.equal_aspect},
+                 {"x", axisMeta(panel.x, view.x, heat_map != nullptr)},
+                 {"y", axisMeta(panel.y, view.y, heat_map != nullptr)}};
     spec.height = title_room + legend_room + panel.height + bottom_margin;
     if (!panel.note.empty()) {
         spec.marks.push_back(textMark(fitText(panel.note, label_size, width - left_margin), plot_left,

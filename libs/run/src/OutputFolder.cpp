@@ -18,7 +18,8 @@ constexpr const char* output_names[] = {
     "trajectory.csv",        "trajectory.tum",  "tracks.csv",      "landmarks.csv",
     "landmarks_history.csv", "innovations.csv", "steps.csv",       "correlation.bin",
     "map.landmarks.gz",      "scene.3Dscene",   "estimate.rawlog", "estimate.rawlog.sha256",
-    "summary.json",          "overview.svg",    "overview.png",    "overview.vg.json"};
+    "summary.json",          "overview.svg",    "overview.png",    "overview.vg.json",
+    "report.html"};
 
 /// Names alone do not tell an estimate from somebody's data, so a folder is only written to when it is empty
 /// or the output of an earlier run, finished or broken off.

@@ -65,4 +65,9 @@ double StepTimer::percentile(double q) const {
     return *at;
 }
 
+void SensorRecord::step(const Step& step) {
+    if (!step.has_detections) return;
+    for (const RangeBearingSensor& sensor : step.detections.rangeBearing().sensors) sensors_[sensor.label] = sensor;
+}
+
 }  // namespace slamot::run

@@ -101,7 +101,8 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     EstimateHash hash;
     StepTimer timer;
     EndKeeper end;
-    std::vector<Sink*> sinks{&recorder, &hash, &timer, &end};
+    SensorRecord sensors;
+    std::vector<Sink*> sinks{&recorder, &hash, &timer, &end, &sensors};
     sinks.insert(sinks.end(), input.sinks.begin(), input.sinks.end());
 
     Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), input.truth, input.threads, sinks);
@@ -145,6 +146,7 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     summary.counts = &pipeline.counts();
     summary.timer = &timer;
     summary.drops = drops;
+    summary.sensors = sensors.sensors();
     summary.warnings = result.warnings;
     summary.end = end.kept;
     if (result.metrics) summary.metrics = eval::toJson(*result.metrics);

@@ -181,7 +181,8 @@ std::vector<ParameterTable> describe(RunConfig& c) {
         .flag("map", c.output.map, "map.landmarks.gz.")
         .flag("scene", c.output.scene, "scene.3Dscene.")
         .flag("rawlog", c.output.rawlog, "estimate.rawlog.")
-        .flag("figure", c.output.figure, "overview.svg and overview.png.");
+        .flag("figure", c.output.figure, "overview.svg and overview.png.")
+        .flag("report", c.output.report, "report.html, a page of plots.");
 
     return {run,
             slamot::describe(c.log),

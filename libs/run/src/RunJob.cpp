@@ -19,8 +19,9 @@ JobResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     input.stop = request.stop;
     input.sinks = folder.sinks();
 
-    JobResult result{runSource(assembled, input), {}, false};
+    JobResult result{runSource(assembled, input), {}, false, false};
     result.writes_figure = assembled.config.output.figure && result.started;
+    result.writes_report = assembled.config.output.report && result.started;
     if (result.metrics) result.metrics_table = eval::summaryTable(*result.metrics);
     folder.writeSummary(result.summary);
     if (result.failure) std::rethrow_exception(result.failure);

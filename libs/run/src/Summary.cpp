@@ -36,6 +36,20 @@ nlohmann::json countsJson(const PipelineCounts& counts, const Estimate& estimate
             {"tracks_at_end", estimate.tracks.size()}};
 }
 
+nlohmann::json sensorsJson(const std::map<std::string, RangeBearingSensor>& sensors) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const auto& [label, sensor] : sensors)
+        list.push_back({{"label", label},
+                        {"kind", toText(sensor.kind)},
+                        {"x", sensor.pose.x},
+                        {"y", sensor.pose.y},
+                        {"theta", sensor.pose.theta},
+                        {"min_range", sensor.min_range},
+                        {"max_range", sensor.max_range},
+                        {"field_of_view", sensor.field_of_view}});
+    return list;
+}
+
 }  // namespace
 
 std::vector<std::string> summaryCountNames() {
@@ -65,6 +79,7 @@ nlohmann::json makeSummary(const SummaryInput& in) {
         {"estimate_sha256", in.estimate_hash},
         {"counts", countsJson(counts, in.end.estimate)},
         {"drops", drops},
+        {"sensors", sensorsJson(in.sensors)},
         {"warnings", in.warnings},
         {"time",
          {{"wall_s", in.wall_seconds},

@@ -2,6 +2,7 @@
 // Okabe and Ito's colours, told apart with the common forms of colour blindness and in grey print, and the
 // greys of everything that is not data (M. Okabe, K. Ito, Color Universal Design, 2008).
 #include <cstddef>
+#include <map>
 #include <string>
 
 namespace slamot::report {
@@ -20,6 +21,9 @@ inline constexpr const char* pale_grey = "#A0A0A0";
 inline constexpr const char* frame = "#B8B8B8";
 inline constexpr const char* grid = "#E9E9E9";
 }  // namespace colour
+
+/// The colours that change on a dark background, and into which; the others are seen on both.
+std::map<std::string, std::string> darkColours();
 
 enum class Dash { solid, dashed, dotted };
 

@@ -1,5 +1,6 @@
 #pragma once
 // Sinks that keep a run in memory instead of files: for metrics, summaries and studies.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,16 @@ class StepTimer : public Sink {
    private:
     double pending_ = 0;
     std::vector<double> seconds_;
+};
+
+/// The sensors that detections came from, by label, each as it was last.
+class SensorRecord : public Sink {
+   public:
+    void step(const Step& step) override;
+    const std::map<std::string, RangeBearingSensor>& sensors() const { return sensors_; }
+
+   private:
+    std::map<std::string, RangeBearingSensor> sensors_;
 };
 
 }  // namespace slamot::run

@@ -47,7 +47,7 @@ struct StartParameters {
 struct OutputParameters {
     double interval = 0;  ///< [s] between rows of trajectory and tracks; stamps with detections always get one
     bool innovations = true, landmarks_history = true, steps = true, correlation = true;
-    bool map = true, scene = true, rawlog = true, figure = true;
+    bool map = true, scene = true, rawlog = true, figure = true, report = true;
 };
 
 struct RunConfig {

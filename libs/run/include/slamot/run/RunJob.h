@@ -21,7 +21,8 @@ struct RunRequest {
 
 struct JobResult : RunResult {
     std::string metrics_table;   ///< for the terminal; empty without truth
-    bool writes_figure = false;  ///< [output] figure, if there is anything to draw; drawn by libs/report
+    /// [output] figure and report, if there is anything to show; made by libs/report
+    bool writes_figure = false, writes_report = false;
 };
 
 /// Runs the log and writes all outputs. Throws ConfigError, PluginError, LogError or EstimatorError when there is

@@ -18,6 +18,7 @@ struct SummaryInput {
     const PipelineCounts* counts = nullptr;
     const StepTimer* timer = nullptr;
     DropTable drops;
+    std::map<std::string, RangeBearingSensor> sensors;
     std::vector<std::string> warnings;
     RunEnd end;
     double wall_seconds = 0, cpu_seconds = 0;

@@ -1,0 +1,52 @@
+// Starts what the page holds: figures when they come near the window, the rest while nothing else is to do.
+
+(() => {
+  const plots = new Map();
+  const shown = (element) => {
+    if (plots.has(element)) return;
+    const plot = new Plot(element);
+    plots.set(element, plot);
+    plot.show();
+    new PlotTools(plot, element.dataset.figure);
+  };
+  const figures = [...document.querySelectorAll('figure[data-figure]')];
+  const observer = new IntersectionObserver((entries) => {
+    for (const entry of entries) {
+      if (entry.isIntersecting) shown(entry.target);
+    }
+  }, {rootMargin: '600px'});
+  figures.forEach((figure) => observer.observe(figure));
+
+  const idle = window.requestIdleCallback || ((action) => setTimeout(action, 50));
+  const rest = [...figures];
+  const showNext = () => {
+    if (rest.length === 0) {
+      document.documentElement.dataset.ready = 'true';
+      return;
+    }
+    shown(rest.shift());
+    idle(showNext);
+  };
+  idle(showNext);
+
+  const replays = [...document.querySelectorAll('[data-replay]')].map((element) => new Replay(element));
+
+  theme.onChange(() => {
+    plots.forEach((plot) => plot.show());
+    replays.forEach((replay) => replay.draw());
+  });
+  document.getElementById('theme').addEventListener('change', (event) => theme.choose(event.target.value));
+  document.getElementById('print').addEventListener('click', () => window.print());
+  window.addEventListener('beforeprint', () => {
+    figures.forEach(shown);
+    theme.forPaper(true);
+  });
+  window.addEventListener('afterprint', () => theme.forPaper(false));
+
+  for (const copy of document.querySelectorAll('button[data-copies]')) {
+    copy.addEventListener('click', () => {
+      const text = document.getElementById(copy.dataset.copies).textContent;
+      navigator.clipboard.writeText(text).then(() => { copy.textContent = 'Copied'; });
+    });
+  }
+})();

@@ -1,0 +1,77 @@
+#pragma once
+// A self-contained HTML page: text, tables, interactive figures. One shell for runs, comparisons and studies; it
+// needs no network and no other file.
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "slamot/report/Figure.h"
+
+namespace slamot::report {
+
+struct Paragraph {
+    std::string text;
+};
+
+/// Text as it is: a configuration, a command. With a `summary` it is folded away under it.
+struct Verbatim {
+    std::string text, summary;
+    bool can_be_copied = false;
+};
+
+struct TableCell {
+    std::string text;
+    bool best = false;  ///< marked as the best of its row
+};
+
+struct TableRow {
+    std::vector<TableCell> cells;
+    bool group = false;  ///< a heading within the table: its first cell alone
+};
+
+/// The first column names the rows; columns after `left_columns` are numbers, aligned to the right.
+struct PageTable {
+    std::string caption;
+    std::vector<std::string> headings;
+    std::vector<TableRow> rows;
+    std::size_t left_columns = 1;
+};
+
+/// `alt` says what is seen, for who does not see it; `name` is the picture's file name.
+struct PageFigure {
+    std::string name, alt;
+    Figure figure;
+    std::string caption;
+};
+
+/// The replay of a run (assets/replay.js), its data as JSON.
+struct ReplayView {
+    std::string alt, data;
+    /// Name and colour of the modes of tracks.
+    std::vector<std::pair<std::string, std::string>> modes;
+};
+
+using Block = std::variant<Paragraph, Verbatim, PageTable, PageFigure, ReplayView>;
+
+struct PageSection {
+    std::string id, title;
+    std::string about;  ///< how to read what follows
+    std::vector<Block> blocks;
+};
+
+struct Page {
+    std::string title, subtitle;
+    std::vector<PageSection> sections;
+    std::string footer;
+};
+
+/// The whole page. Everything in `page` is text, never markup.
+std::string toHtml(const Page& page);
+
+/// Writes toHtml(page). Throws ReportError (FigureWriter.h) where the file cannot be written.
+void writePage(const Page& page, const std::string& file);
+
+/// The page's figures as FOLDER/NAME.svg and .png. Throws ReportError.
+void writePictures(const Page& page, const std::string& folder);
+
+}  // namespace slamot::report

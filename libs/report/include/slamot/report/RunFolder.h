@@ -1,0 +1,65 @@
+#pragma once
+// What a run left in its output folder (doc/output_files.md), read again: all that its report is made from.
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slamot/eval/RunRecord.h"
+#include "slamot/eval/Trajectory.h"
+#include "slamot/rawlog/Truth.h"
+
+namespace slamot::report {
+
+/// A row of steps.csv.
+struct StepRow {
+    Stamp stamp;
+    std::int64_t landmarks = 0, tracks = 0;
+    double predict_ms = 0, detect_ms = 0, update_ms = 0;
+};
+
+/// A row of landmarks_history.csv: a landmark after an update that saw it.
+struct LandmarkSight {
+    Stamp stamp;
+    LandmarkId id;
+    SourceId source;
+    Vector2 mean = Vector2::Zero();
+    Matrix2 covariance = Matrix2::Zero();
+};
+
+/// correlation.bin
+struct CorrelationCells {
+    int dimension = 0;      ///< of the whole matrix
+    Eigen::MatrixXf cells;  ///< square; down-sampled where it is smaller than the whole
+};
+
+/// Files that are absent (switched off in `[output]`) leave their part empty.
+struct RunFolder {
+    std::string folder;
+    nlohmann::json summary;
+    eval::RunRecord run;
+    std::vector<LandmarkSight> sights;
+    std::vector<StepRow> steps;
+    std::optional<CorrelationCells> correlation;
+    std::optional<Truth> truth;
+    std::string why_no_truth;  ///< a clause, where there is none
+
+    /// The robot's poses with their truth; none without truth.
+    std::vector<eval::PosePair> pairs;
+
+    /// Since the start of the run.
+    double seconds(Stamp stamp) const;
+    double duration() const;
+    /// A number of summary.json; nothing where it is absent or null. Names are joined by slashes:
+    /// "metrics/robot/position/rmse".
+    std::optional<double> number(const std::string& path) const;
+    std::string text(const std::string& name) const;
+};
+
+/// `truth_folder`: where truth is instead of where summary.json says the run had it; "none" for no truth. A truth
+/// that is no longer there is told in `why_no_truth`. Throws LogError naming file and line where a file is broken
+/// or no run has left `folder`.
+RunFolder readRunFolder(const std::string& folder, const std::string& truth_folder = {});
+
+}  // namespace slamot::report

@@ -1,0 +1,112 @@
+// Normalized estimation error squared of the robot and of tracks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "MetricRows.h"
+#include "sections/Courses.h"
+#include "sections/Sections.h"
+#include "slamot/eval/Metrics.h"
+
+namespace slamot::report {
+namespace {
+
+/// A logarithmic panel with the chi-square band of `degrees`.
+Panel neesPanel(const RunFolder& run, const std::string& title, int degrees, Line line) {
+    const double probability = bandProbability(run);
+    const eval::Band band = eval::chiSquareBand(probability, degrees);
+    Panel panel;
+    panel.title = title;
+    panel.x = runTimeAxis(run);
+    panel.y.label = "NEES";
+    panel.y.logarithmic = true;
+    panel.height = 170;
+    double least = band.low;
+    for (const Eigen::Vector2d& p : line.points) {
+        least = p.y() > 0 ? std::min(least, p.y()) : least;
+    }
+    panel.y.min = std::max(least, 1e-3 * band.low);  // single lucky steps would stretch the axis without end
+    const double end = run.duration();
+    panel.layers.push_back(Band{fmt::format("{:.0f} % of χ² with {} degrees of freedom", 100 * probability, degrees),
+                                {{0, band.low, band.high}, {end, band.low, band.high}},
+                                colour::green, 0.2});
+    panel.layers.push_back(Rule{"its mean", static_cast<double>(degrees), false, colour::green});
+    panel.layers.push_back(std::move(line));
+    return panel;
+}
+
+int mostDegrees(const eval::NeesSeries& series) {
+    int degrees = 0;
+    for (const eval::NeesStep& step : series) {
+        degrees = std::max(degrees, step.squared.dimension);
+    }
+    return degrees;
+}
+
+Line lineOf(const RunFolder& run, const eval::NeesSeries& series, const std::string& label,
+            const std::string& colour) {
+    Line line{label, {}, colour, 1.2};
+    for (const eval::NeesStep& step : series) {
+        line.points.emplace_back(run.seconds(step.stamp), step.squared.dimension > 0 ? step.squared.value : std::nan(""));
+    }
+    return line;
+}
+
+/// Of the position, 2 degrees of freedom.
+eval::NeesSeries trackNees(const RunFolder& run, const StyledTrack& shown) {
+    eval::NeesSeries series;
+    for (const auto& [stamp, tracks] : run.run.tracks) {
+        for (const TrackEstimate& track : tracks) {
+            if (track.id != shown.id) {
+                continue;
+            }
+            if (const auto truth = truthOf(run, track.source, stamp)) {
+                const Vector2 error = track.mean.head<2>() - truth->position;
+                const Matrix2 covariance = track.covariance.topLeftCorner<2, 2>();
+                series.push_back({stamp, eval::nees(error, covariance)});
+            }
+        }
+    }
+    return series;
+}
+
+std::string absent(const RunFolder& run) {
+    if (!run.truth) {
+        return "no truth: " + run.why_no_truth;
+    }
+    return mostDegrees(eval::robotNees(run.pairs)) == 0 ? "no covariance that is known has a truth" : "";
+}
+
+std::vector<Block> blocks(const RunFolder& run) {
+    const eval::NeesSeries robot = eval::robotNees(run.pairs);
+    Figure figure;
+    figure.panels.push_back(neesPanel(run, "Robot", mostDegrees(robot), lineOf(run, robot, "Robot", colour::blue)));
+    std::size_t tracks = 0;
+    for (const StyledTrack& track : styledTracks(run.run)) {
+        const eval::NeesSeries series = trackNees(run, track);
+        if (series.empty() || tracks == most_tracks_shown) {
+            continue;
+        }
+        Panel panel = neesPanel(run, nameOf(track) + ", position", 2, lineOf(run, series, "Track", track.style.colour));
+        panel.height = 120;
+        figure.panels.push_back(std::move(panel));
+        ++tracks;
+    }
+    std::string caption;
+    if (const auto summary = eval::summariseNees(robot, bandProbability(run))) {
+        caption = fmt::format("Robot: {} on average of {:.3g} degrees of freedom; {:.1f} % of {} steps in the band.",
+                              shortNumber(summary->average), summary->mean_dimension, 100 * summary->inside, summary->steps);
+    }
+    return {PageFigure{"nees", "NEES over time with chi-square bands. " + caption, figure, caption}};
+}
+
+}  // namespace
+
+const ReportSection nees_section{"nees", "NEES",
+                                 "Do the covariances tell the truth? The squared error weighted by its inverse covariance: above the band the estimate is surer "
+                                 "than it may be, below it is too careful. Steps of one run depend on each other: "
+                                 "one run leaves the band for a while by chance; a study over many seeds decides.",
+                                 absent, blocks};
+
+}  // namespace slamot::report

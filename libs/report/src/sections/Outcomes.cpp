@@ -1,0 +1,67 @@
+// What became of the detections.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "sections/Courses.h"
+#include "sections/Sections.h"
+
+namespace slamot::report {
+namespace {
+
+constexpr std::size_t most_windows = 120;
+
+std::string absent(const RunFolder& run) {
+    return run.run.innovations.empty() ? "innovations.csv is not there or empty ([output] innovations)" : "";
+}
+
+std::vector<Block> blocks(const RunFolder& run) {
+    const std::array outcomes{Outcome::updated,  Outcome::inflated,  Outcome::initiated,
+                              Outcome::tentative, Outcome::rejected, Outcome::ignored};
+    const std::vector<std::string> colours = {colour::sky,    colour::orange,     colour::blue,
+                                              colour::purple, colour::vermillion, colour::grey};
+    std::vector<std::string> labels;
+    for (const Outcome outcome : outcomes) {
+        labels.emplace_back(toText(outcome));
+    }
+    std::set<Stamp> stamps;
+    for (const eval::InnovationRow& row : run.run.innovations) {
+        stamps.insert(row.stamp);
+    }
+    const Windows windows = windowsFor(run, stamps.size(), most_windows);
+    std::vector<double> scans(windows.count(), 0);
+    for (const Stamp stamp : stamps) {
+        scans[windows.of(stamp)] += 1;
+    }
+    std::vector<std::vector<double>> counts(outcomes.size(), std::vector<double>(windows.count(), 0));
+    for (const eval::InnovationRow& row : run.run.innovations) {
+        for (std::size_t k = 0; k < outcomes.size(); ++k) {
+            counts[k][windows.of(row.stamp)] += row.innovation.outcome == outcomes[k];
+        }
+    }
+    Panel panel;
+    panel.x = runTimeAxis(run);
+    panel.y.label = "Detections at a time";
+    panel.y.min = 0;
+    for (std::vector<double>& row : counts) {
+        for (std::size_t w = 0; w < windows.count(); ++w) {
+            row[w] /= std::max(scans[w], 1.0);
+        }
+    }
+    for (Band& band : stackedSteps(windows, counts, labels, colours)) {
+        panel.layers.push_back(std::move(band));
+    }
+    Figure figure;
+    figure.panels = {panel};
+    return {PageFigure{"outcomes", "Detections at a time, mean over windows, by what became of them.", figure, ""}};
+}
+
+}  // namespace
+
+const ReportSection outcome_section{"outcomes", "Association outcomes",
+                                    "How many detections there are at one stamp, mean over a window, by what became of them. Updated: used at full weight; inflated: used with enlarged noise; initiated: started a landmark or a "
+                                    "track; tentative: of something not known to exist yet; rejected: outside the gate; "
+                                    "ignored: of no use to the estimator.",
+                                    absent, blocks};
+
+}  // namespace slamot::report

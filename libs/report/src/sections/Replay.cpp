@@ -1,0 +1,35 @@
+// The run again, with a slider.
+#include <fmt/format.h>
+
+#include "sections/ReplayData.h"
+#include "sections/Sections.h"
+#include "slamot/report/Palette.h"
+
+namespace slamot::report {
+namespace {
+
+std::string absent(const RunFolder& run) {
+    return run.run.trajectory.size() < 2 ? "the run has fewer than two steps" : "";
+}
+
+std::vector<Block> blocks(const RunFolder& run) {
+    ReplayView replay;
+    replay.alt = fmt::format(
+        "Replay of {:.1f} s: the robot and its field of view, landmarks as they appear, tracks with their modes.",
+        run.duration());
+    replay.data = replayData(run);
+    for (std::size_t m = 0; m < run.run.mode_names.size(); ++m) {
+        replay.modes.emplace_back(run.run.mode_names[m], seriesStyle(m).colour);
+    }
+    return {replay};
+}
+
+}  // namespace
+
+const ReportSection replay_section{
+    "replay", "Replay",
+    "Drag the slider, or choose the map and use the arrow keys, Page up and down, Home, End and space; + and - enlarge, 0 "
+    "shows all. Each landmark is drawn as it was when last seen.",
+    absent, blocks};
+
+}  // namespace slamot::report
