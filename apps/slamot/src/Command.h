@@ -31,6 +31,7 @@ void addInfo(CLI::App& app, Action& chosen);
 void addRun(CLI::App& app, Action& chosen);
 void addEval(CLI::App& app, Action& chosen);
 void addReport(CLI::App& app, Action& chosen);
+void addCompare(CLI::App& app, Action& chosen);
 void addStudy(CLI::App& app, Action& chosen);
 void addPlugins(CLI::App& app, Action& chosen);
 void addConfig(CLI::App& app, Action& chosen);

@@ -10,6 +10,7 @@
 #include "slamot/study/Export.h"
 #include "slamot/study/OneRun.h"
 #include "slamot/study/Page.h"
+#include "slamot/study/Report.h"
 #include "slamot/study/Session.h"
 
 namespace slamot::app {
@@ -21,7 +22,7 @@ struct Options {
     std::vector<std::string> merge;
     int threads = 1;
     bool list = false, check = false, no_run = false;
-    std::string export_folder;
+    std::string export_folder, report_file;
     std::vector<std::string> pages;
 };
 
@@ -120,19 +121,23 @@ bool runMissing(study::Session& session, const Options& options, const study::Sh
 }
 
 /// The command that makes a page again.
-std::string commandOf(const Options& options, const std::string& page) {
+std::string commandOf(const Options& options, const std::string& option, const std::string& page) {
     std::vector<std::string> words = {"slamot", "study"};
     for (const std::string& word : study::argumentsOf(options.session)) words.push_back(word);
     if (options.check) words.push_back("--check");
-    words.insert(words.end(), {"--fill", page});
+    words.insert(words.end(), {option, page});
     return study::shellLine(words);
 }
 
 /// What the rows say, where it was asked for; false when a check failed.
 bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options,
                   const PluginRegistry& registry) {
-    if (!options.check && options.export_folder.empty() && options.pages.empty()) return true;
+    if (!options.check && options.export_folder.empty() && options.pages.empty() && options.report_file.empty())
+        return true;
     const std::vector<study::Row> rows = session.rows();
+    if (rows.empty() && !options.report_file.empty())
+        throw UsageError(fmt::format("--report: {} has no rows of this study, expected some to report on",
+                                     options.session.store_file));
     if (rows.empty() && !options.pages.empty())
         throw UsageError(
             fmt::format("--fill: {} has no rows of this study, expected some before pages are filled",
@@ -146,8 +151,12 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     }
     if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
     for (const std::string& page : options.pages)
-        study::fillPage(page, findings, study::provenanceHere(commandOf(options, page)),
+        study::fillPage(page, findings, study::provenanceHere(commandOf(options, "--fill", page)),
                         options.check ? &checks : nullptr);
+    if (!options.report_file.empty())
+        study::writeReport(options.report_file, findings,
+                           study::provenanceHere(commandOf(options, "--report", options.report_file)),
+                           options.check ? &checks : nullptr);
     return !options.check || checks.passed();
 }
 
@@ -159,9 +168,10 @@ void requireOptionsThatFit(const Options& options) {
         throw UsageError("--keep: expected without --list, --no-run and --merge, which run nothing");
     if (!options.shard.empty() && (options.no_run || !options.merge.empty()))
         throw UsageError("--shard: expected without --no-run and --merge, which run nothing");
-    if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty()))
+    if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty() ||
+                                   !options.report_file.empty()))
         throw UsageError(
-            "--shard: expected without --check, --export and --fill, which need all rows; "
+            "--shard: expected without --check, --export, --report and --fill, which need all rows; "
             "give them when merging");
 }
 
@@ -236,6 +246,8 @@ void addStudy(CLI::App& app, Action& chosen) {
                       "Compare with the intervals of [check.*]; exit 1 when one fails");
     command->add_option("--export", options->export_folder,
                         "Folder for all rows, statistics, tables and figures");
+    command->add_option("--report", options->report_file, "Page of all tables, figures and checks")
+        ->check(notEmpty());
     command->add_option("--fill", options->pages, "Markdown pages whose marks of this study are filled");
     command->callback(
         [&chosen, options] { chosen = [options](const Verbosity& v) { return studyJob(*options, v); }; });

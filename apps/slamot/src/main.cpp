@@ -62,6 +62,7 @@ int runMain(int argc, char** argv) {
     addRun(app, action);
     addEval(app, action);
     addReport(app, action);
+    addCompare(app, action);
     addStudy(app, action);
     addPlugins(app, action);
     addConfig(app, action);

@@ -23,27 +23,28 @@ class Plot {
 
   /** The specification with a signal for every axis that can be moved and every layer with a name. */
   specification() {
-    const spec = theme.themed({...this.source, usermeta: undefined});
-    spec.signals = [];
+    const spec = {...theme.themed(this.source), signals: [], usermeta: undefined};
     spec.config = {...spec.config, aria: false};
-    const groups = new Map(spec.marks.filter((mark) => mark.name).map((mark) => [mark.name, mark]));
-    this.panels.forEach((panel, i) => {
-      const group = groups.get(`panel_${i}`);
-      group.scales = group.scales.map((scale) => {
-        if (!panel[scale.name].moves) return scale;
-        spec.signals.push({name: `${scale.name}_${i}`, value: this.domains[i][scale.name]});
-        return {...scale, domain: {signal: `${scale.name}_${i}`}};
-      });
-      group.marks = group.marks.map((mark) => {
-        if (!mark.name) return mark;
-        spec.signals.push({name: mark.name, value: this.isShown(mark.name)});
-        const update = {...mark.encode.update};
-        const opacity = update.opacity ? update.opacity.value : 1;
-        update.opacity = {signal: `${mark.name} ? ${opacity} : 0`};
-        return {...mark, encode: {update}};
-      });
+    spec.marks = spec.marks.map((mark) => {
+      const panel = /^panel_(\d+)$/.exec(mark.name || '');
+      return panel ? this.withSignals(mark, Number(panel[1]), spec.signals) : mark;
     });
     return spec;
+  }
+
+  withSignals(group, index, signals) {
+    const scales = group.scales.map((scale) => {
+      if (!this.panels[index][scale.name].moves) return scale;
+      signals.push({name: `${scale.name}_${index}`, value: this.domains[index][scale.name]});
+      return {...scale, domain: {signal: `${scale.name}_${index}`}};
+    });
+    const marks = group.marks.map((mark) => {
+      if (!mark.name) return mark;
+      signals.push({name: mark.name, value: this.isShown(mark.name)});
+      const {update} = mark.encode, opacity = update.opacity ? update.opacity.value : 1;
+      return {...mark, encode: {update: {...update, opacity: {signal: `${mark.name} ? ${opacity} : 0`}}}};
+    });
+    return {...group, scales, marks};
   }
 
   isShown(mark) {
@@ -57,7 +58,11 @@ class Plot {
     const marks = this.source.usermeta.symbols;
     const many = 4000;  // more elements than this make an SVG slow
     this.view = new vega.View(vega.parse(spec), {renderer: marks > many ? 'canvas' : 'svg', hover: false});
-    this.view.initialize(this.canvas).run();
+    // Vega gives its element a role of its own; the figure's is `img`, with words for what is seen.
+    const place = document.createElement('div');
+    this.canvas.replaceChildren(place);
+    this.view.initialize(place).run();
+    for (const name of ['role', 'aria-roledescription', 'aria-label']) place.removeAttribute(name);
     this.element.dataset.shown = 'true';
   }
 

@@ -35,7 +35,7 @@ const std::vector<MetricRow>& metricRows() {
         {"Landmarks", "GOSPA", "m", B::smaller, "metrics/landmark_set/gospa/total"},
         {"Tracks", "position RMSE", "m", B::smaller, "metrics/targets/all/position/rmse"},
         {"Tracks", "velocity RMSE", "m/s", B::smaller, "metrics/targets/all/velocity/rmse"},
-        {"Tracks", "position RMSE seen from the robot", "m", B::smaller,
+        {"Tracks", "relative position RMSE", "m", B::smaller,
          "metrics/targets/all/relative_position/rmse"},
         {"Tracks", "NEES per degree of freedom", "", B::near_one, "metrics/targets/all/nees/average", 1,
          "metrics/targets/all/nees/mean_dimension"},
@@ -46,8 +46,8 @@ const std::vector<MetricRow>& metricRows() {
         {"Tracks", "identity switches", "", B::smaller, "metrics/tracking/all/switches"},
         {"Association", "recall", "%", B::larger, "metrics/association/all/recall", percent},
         {"Association", "precision", "%", B::larger, "metrics/association/all/precision", percent},
-        {"Cost", "time of a step, mean", "ms", B::smaller, "time/step_ms/mean"},
-        {"Cost", "time of a step, 99th percentile", "ms", B::smaller, "time/step_ms/p99"},
+        {"Cost", "step time, mean", "ms", B::smaller, "time/step_ms/mean"},
+        {"Cost", "step time, 99 %", "ms", B::smaller, "time/step_ms/p99"},
         {"Cost", "whole run", "s", B::smaller, "time/wall_s"},
         {"Cost", "peak memory", "MB", B::smaller, "peak_memory_mb"}};
     return rows;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace slamot::report {
 
@@ -40,6 +41,43 @@ std::vector<StyledTrack> styledTracks(const eval::RunRecord& run) {
 std::string nameOf(const StyledTrack& track) {
     return track.source.valid() ? fmt::format("Track {} (object {})", track.id.value, track.source.value)
                                 : fmt::format("Track {}", track.id.value);
+}
+
+const TrackEstimate* FollowedObject::among(const std::vector<TrackEstimate>& tracks) const {
+    const TrackEstimate* found = nullptr;
+    for (const TrackEstimate& candidate : tracks) {
+        const bool follows = source.valid() ? candidate.source == source : candidate.id == track;
+        if (follows && (!found || candidate.existence > found->existence)) {
+            found = &candidate;
+        }
+    }
+    return found;
+}
+
+std::vector<FollowedObject> followedObjects(const eval::RunRecord& run) {
+    const std::vector<StyledTrack> tracks = styledTracks(run);
+    std::map<SourceId, std::size_t> count, length;
+    for (const StyledTrack& track : tracks) {
+        ++count[track.source];
+        length[track.source] += track.length;
+    }
+    std::vector<std::pair<std::size_t, FollowedObject>> objects;
+    std::map<SourceId, bool> taken;
+    for (const StyledTrack& track : tracks) {
+        if (!track.source.valid()) {
+            objects.push_back({track.length, {nameOf(track), {}, track.id, track.style}});
+        } else if (!std::exchange(taken[track.source], true)) {
+            const std::size_t n = count[track.source];
+            const std::string name = n > 1 ? fmt::format("Object {} ({} tracks)", track.source.value, n) : nameOf(track);
+            objects.push_back({length[track.source], {name, track.source, track.id, track.style}});
+        }
+    }
+    std::stable_sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<FollowedObject> sorted;
+    for (auto& [stamps, object] : objects) {
+        sorted.push_back(std::move(object));
+    }
+    return sorted;
 }
 
 }  // namespace slamot::report

@@ -18,6 +18,21 @@ struct StyledTrack {
 /// it.
 std::vector<StyledTrack> styledTracks(const eval::RunRecord& run);
 
+/// What figures over time show as one thing: all tracks of an object that the log names, or a single track.
+struct FollowedObject {
+    std::string name;
+    SourceId source;
+    TrackId track;  ///< where the log names no object
+    SeriesStyle style;
+
+    /// Of the tracks of one stamp the one that follows the object, of several the one of highest existence; null
+    /// for none.
+    const TrackEstimate* among(const std::vector<TrackEstimate>& tracks) const;
+};
+
+/// The longest followed first.
+std::vector<FollowedObject> followedObjects(const eval::RunRecord& run);
+
 /// "Track 7 (object 3)", or "Track 7" where the log does not name the object.
 std::string nameOf(const StyledTrack& track);
 

@@ -43,7 +43,9 @@ std::vector<Block> configuration(const RunFolder& run) {
         fmt::format("slamot run run.ini {} -o out --truth {} --seed {:.0f}", quoted(run.text("log")),
                     truth.empty() ? "none" : quoted(truth), run.number("seed").value_or(1));
     return {Paragraph{"Save the settings below as run.ini, then"}, Verbatim{command, "", true},
-            Verbatim{run.text("config"), "Settings that were given; `slamot config` prints all with their defaults", true}};
+            Verbatim{run.text("config"), "Settings that were given; `slamot config` prints all with their defaults", true},
+            Paragraph{"The estimates are the same where estimate_sha256 in summary.json is"},
+            Verbatim{run.text("estimate_sha256"), "", false}};
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<Block> blocks(const RunFolder& run) {
         // A few rows have no room for names of their own.
         const bool few = track_dimensions * tracks * cells_per_component < n / 30;
         if (few) {
-            addBlock(tracks > 0 ? "robot, tracks" : "robot", 0, first_landmark);
+            addBlock("robot", 0, first_landmark);
         } else {
             addBlock("robot", 0, robot_dimensions);
             addBlock("tracks", robot_dimensions, first_landmark);

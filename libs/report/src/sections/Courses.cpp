@@ -12,6 +12,23 @@ void ErrorCourse::add(double t, double e, double s) {
     sigma.push_back(s);
 }
 
+void breakAtGaps(ErrorCourse& course) {
+    const std::vector<double>& t = course.seconds;
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < t.size(); ++i) {
+        intervals.push_back(t[i] - t[i - 1]);
+    }
+    const double longest = 5 * quantile(intervals, 0.5);
+    ErrorCourse broken;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        if (i > 0 && t[i] - t[i - 1] > longest) {
+            broken.add(0.5 * (t[i] + t[i - 1]), std::nan(""), std::nan(""));
+        }
+        broken.add(t[i], course.error[i], course.sigma[i]);
+    }
+    course = std::move(broken);
+}
+
 Axis runTimeAxis(const RunFolder& run) {
     Axis axis = timeAxis("Time since the start");
     if (run.duration() > 0) {

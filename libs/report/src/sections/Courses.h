@@ -9,7 +9,7 @@
 
 namespace slamot::report {
 
-constexpr std::size_t most_tracks_shown = 6;
+constexpr std::size_t most_objects_shown = 6;
 
 /// An error with its standard deviation; NaN is a gap, a sigma of zero throughout means that it is not known.
 struct ErrorCourse {
@@ -17,6 +17,9 @@ struct ErrorCourse {
     void add(double t, double e, double s);
     bool empty() const { return seconds.empty(); }
 };
+
+/// Puts NaN where two entries are more than five times as far apart as they usually are: lines must not bridge gaps.
+void breakAtGaps(ErrorCourse& course);
 
 /// "Error in x" with a band of three standard deviations.
 Panel errorPanel(const RunFolder& run, const std::string& label, const std::string& unit, const ErrorCourse& course,

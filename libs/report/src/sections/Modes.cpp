@@ -17,12 +17,12 @@ std::string absent(const RunFolder& run) {
 }
 
 /// Strips at the top of the panel wherever truth says which mode the object is in, where it has a mode's name.
-void addTrueModes(Panel& panel, const RunFolder& run, const StyledTrack& track) {
+void addTrueModes(Panel& panel, const RunFolder& run, const FollowedObject& object) {
     constexpr double height = 1.06;
-    if (!run.truth || !track.source.valid()) {
+    if (!run.truth || !object.source.valid()) {
         return;
     }
-    const auto truth = run.truth->targets.find(track.source);
+    const auto truth = run.truth->targets.find(object.source);
     if (truth == run.truth->targets.end()) {
         return;
     }
@@ -40,13 +40,13 @@ void addTrueModes(Panel& panel, const RunFolder& run, const StyledTrack& track) 
 std::vector<Block> blocks(const RunFolder& run) {
     Figure figure;
     figure.shared_legend = true;
-    const std::vector<StyledTrack> tracks = styledTracks(run.run);
-    for (const StyledTrack& track : tracks) {
-        if (figure.panels.size() == most_tracks_shown) {
+    const std::vector<FollowedObject> objects = followedObjects(run.run);
+    for (const FollowedObject& object : objects) {
+        if (figure.panels.size() == most_objects_shown) {
             break;
         }
         Panel panel;
-        panel.title = nameOf(track);
+        panel.title = object.name;
         panel.x = runTimeAxis(run);
         panel.y.label = "Probability";
         panel.y.min = 0;
@@ -57,25 +57,22 @@ std::vector<Block> blocks(const RunFolder& run) {
             const SeriesStyle style = seriesStyle(m);
             Line line{"mode " + run.run.mode_names[m], {}, style.colour, 1.5, m < 2 ? Dash::solid : Dash::dashed};
             for (const eval::RobotRow& row : run.run.trajectory) {
-                double p = std::nan("");
-                if (const auto present = run.run.tracks.find(row.stamp); present != run.run.tracks.end()) {
-                    for (const TrackEstimate& estimate : present->second) {
-                        p = estimate.id == track.id ? estimate.mode_probabilities.at(m) : p;
-                    }
-                }
-                line.points.emplace_back(run.seconds(row.stamp), p);
+                const auto present = run.run.tracks.find(row.stamp);
+                const TrackEstimate* track =
+                    present == run.run.tracks.end() ? nullptr : object.among(present->second);
+                line.points.emplace_back(run.seconds(row.stamp), track ? track->mode_probabilities.at(m) : std::nan(""));
             }
             panel.layers.push_back(std::move(line));
         }
-        addTrueModes(panel, run, track);
+        addTrueModes(panel, run, object);
         figure.panels.push_back(std::move(panel));
     }
     std::string caption;
-    if (tracks.size() > figure.panels.size()) {
-        caption = fmt::format("The {} longest of {} tracks.", figure.panels.size(), tracks.size());
+    if (objects.size() > figure.panels.size()) {
+        caption = fmt::format("The {} longest followed of {} objects.", figure.panels.size(), objects.size());
     }
     const std::string alt =
-        fmt::format("Probabilities of {} modes over time, for {} tracks.", run.run.mode_names.size(), figure.panels.size());
+        fmt::format("Probabilities of {} modes over time, for {} objects.", run.run.mode_names.size(), figure.panels.size());
     return {PageFigure{"modes", alt, figure, caption}};
 }
 

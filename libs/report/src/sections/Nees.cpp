@@ -46,26 +46,23 @@ int mostDegrees(const eval::NeesSeries& series) {
 
 Line lineOf(const RunFolder& run, const eval::NeesSeries& series, const std::string& label,
             const std::string& colour) {
-    Line line{label, {}, colour, 1.2};
+    ErrorCourse course;
     for (const eval::NeesStep& step : series) {
-        line.points.emplace_back(run.seconds(step.stamp), step.squared.dimension > 0 ? step.squared.value : std::nan(""));
+        course.add(run.seconds(step.stamp), step.squared.dimension > 0 ? step.squared.value : std::nan(""), 0);
     }
-    return line;
+    breakAtGaps(course);
+    return {label, report::series(course.seconds, course.error), colour, 1.2};
 }
 
 /// Of the position, 2 degrees of freedom.
-eval::NeesSeries trackNees(const RunFolder& run, const StyledTrack& shown) {
+eval::NeesSeries objectNees(const RunFolder& run, const FollowedObject& object) {
     eval::NeesSeries series;
     for (const auto& [stamp, tracks] : run.run.tracks) {
-        for (const TrackEstimate& track : tracks) {
-            if (track.id != shown.id) {
-                continue;
-            }
-            if (const auto truth = truthOf(run, track.source, stamp)) {
-                const Vector2 error = track.mean.head<2>() - truth->position;
-                const Matrix2 covariance = track.covariance.topLeftCorner<2, 2>();
-                series.push_back({stamp, eval::nees(error, covariance)});
-            }
+        const TrackEstimate* track = object.among(tracks);
+        if (const auto truth = track ? truthOf(run, object.source, stamp) : std::nullopt) {
+            const Vector2 error = track->mean.head<2>() - truth->position;
+            const Matrix2 covariance = track->covariance.topLeftCorner<2, 2>();
+            series.push_back({stamp, eval::nees(error, covariance)});
         }
     }
     return series;
@@ -82,16 +79,15 @@ std::vector<Block> blocks(const RunFolder& run) {
     const eval::NeesSeries robot = eval::robotNees(run.pairs);
     Figure figure;
     figure.panels.push_back(neesPanel(run, "Robot", mostDegrees(robot), lineOf(run, robot, "Robot", colour::blue)));
-    std::size_t tracks = 0;
-    for (const StyledTrack& track : styledTracks(run.run)) {
-        const eval::NeesSeries series = trackNees(run, track);
-        if (series.empty() || tracks == most_tracks_shown) {
+    for (const FollowedObject& object : followedObjects(run.run)) {
+        const eval::NeesSeries series = objectNees(run, object);
+        if (series.empty() || figure.panels.size() > most_objects_shown) {
             continue;
         }
-        Panel panel = neesPanel(run, nameOf(track) + ", position", 2, lineOf(run, series, "Track", track.style.colour));
+        Panel panel =
+            neesPanel(run, object.name + ", position", 2, lineOf(run, series, "Track", object.style.colour));
         panel.height = 120;
         figure.panels.push_back(std::move(panel));
-        ++tracks;
     }
     std::string caption;
     if (const auto summary = eval::summariseNees(robot, bandProbability(run))) {

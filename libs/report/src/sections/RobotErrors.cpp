@@ -30,6 +30,9 @@ std::vector<Block> blocks(const RunFolder& run) {
         heading.add(t, degrees * error, degrees * sigma(2));
         heading_known = heading_known || std::isfinite(error);
     }
+    for (ErrorCourse* course : {&x, &y, &heading}) {
+        breakAtGaps(*course);
+    }
     Figure figure;
     figure.shared_legend = true;
     figure.panels = {errorPanel(run, "Error in x", "m", x, colour::blue), errorPanel(run, "Error in y", "m", y, colour::blue)};
@@ -43,8 +46,12 @@ std::vector<Block> blocks(const RunFolder& run) {
     if (heading_known) {
         parts += fmt::format(", heading {:.1f} %", partWithinThreeSigma(heading));
     }
-    const std::string caption =
+    std::string caption =
         fmt::format("Within three standard deviations: {}; 99.7 % where errors are Gaussian of that size.", parts);
+    if (run.truth->position_std > 0) {
+        caption += fmt::format(" Truth itself has a standard deviation of {} m, which the bounds leave out.",
+                               run.truth->position_std);
+    }
     return {PageFigure{"robot_errors", "The robot's errors in x, y and heading over time. " + caption, figure, caption}};
 }
 

@@ -50,7 +50,6 @@ PageTable runTable(const RunFolder& run) {
     add("  rejected", whole("counts/detections_rejected"));
     add("  tentative", whole("counts/detections_tentative"));
     add("  ignored", whole("counts/detections_ignored"));
-    add("estimates, SHA-256", run.text("estimate_sha256"));
     return table;
 }
 

@@ -1,8 +1,9 @@
 // Errors of tracks whose object the log names.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 
 #include "sections/Courses.h"
 #include "sections/Sections.h"
@@ -10,83 +11,75 @@
 namespace slamot::report {
 namespace {
 
-struct TrackCourses {
-    StyledTrack track;
-    ErrorCourse x, y, speed_x, speed_y;
-};
-
-std::vector<TrackCourses> coursesOf(const RunFolder& run) {
-    std::vector<TrackCourses> shown;
-    for (const StyledTrack& track : styledTracks(run.run)) {
-        if (track.source.valid() && run.truth->targets.count(track.source) > 0 && shown.size() < most_tracks_shown) {
-            shown.push_back({track, {}, {}, {}, {}});
-        }
-    }
+/// Errors in x, y and in the velocities along them, at every stamp of the run; NaN where the object has no track.
+std::array<ErrorCourse, 4> coursesOf(const RunFolder& run, const FollowedObject& object) {
+    std::array<ErrorCourse, 4> courses;
     for (const eval::RobotRow& row : run.run.trajectory) {
         const auto present = run.run.tracks.find(row.stamp);
-        const double t = run.seconds(row.stamp);
-        for (TrackCourses& courses : shown) {
-            const TrackEstimate* estimate = nullptr;
-            if (present != run.run.tracks.end()) {
-                for (const TrackEstimate& track : present->second) {
-                    estimate = track.id == courses.track.id ? &track : estimate;
-                }
-            }
-            const auto truth = estimate ? truthOf(run, courses.track.source, row.stamp) : std::nullopt;
-            ErrorCourse* const positions[] = {&courses.x, &courses.y};
-            ErrorCourse* const speeds[] = {&courses.speed_x, &courses.speed_y};
-            for (int i = 0; i < 2; ++i) {
-                const double unknown = std::nan("");
-                const auto sigma = [&](int k) { return std::sqrt(std::max(0.0, estimate->covariance(k, k))); };
-                positions[i]->add(t, truth ? estimate->mean(i) - truth->position(i) : unknown,
-                                  estimate ? sigma(i) : unknown);
-                speeds[i]->add(t, truth ? estimate->mean(2 + i) - truth->velocity(i) : unknown,
-                               estimate ? sigma(2 + i) : unknown);
-            }
+        const TrackEstimate* estimate = present == run.run.tracks.end() ? nullptr : object.among(present->second);
+        const auto truth = estimate ? truthOf(run, object.source, row.stamp) : std::nullopt;
+        for (int k = 0; k < 4; ++k) {
+            const double true_value = !truth ? std::nan("") : k < 2 ? truth->position(k) : truth->velocity(k - 2);
+            courses[static_cast<std::size_t>(k)].add(
+                run.seconds(row.stamp), estimate ? estimate->mean(k) - true_value : std::nan(""),
+                estimate ? std::sqrt(std::max(0.0, estimate->covariance(k, k))) : std::nan(""));
         }
     }
-    return shown;
+    return courses;
+}
+
+std::vector<FollowedObject> objectsWithTruth(const RunFolder& run) {
+    std::vector<FollowedObject> objects = followedObjects(run.run);
+    objects.erase(std::remove_if(objects.begin(), objects.end(),
+                                 [&](const FollowedObject& o) { return run.truth->targets.count(o.source) == 0; }),
+                  objects.end());
+    return objects;
 }
 
 std::string absent(const RunFolder& run) {
-    if (!run.truth) {
-        return "no truth: " + run.why_no_truth;
-    }
-    for (const StyledTrack& track : styledTracks(run.run)) {
-        if (track.source.valid() && run.truth->targets.count(track.source) > 0) {
-            return {};
+    return !run.truth                       ? "no truth: " + run.why_no_truth
+           : run.run.tracks.empty()         ? "the run has no track"
+           : objectsWithTruth(run).empty() ? "no track has a source id with a truth"
+                                            : "";
+}
+
+PageFigure figureOf(const RunFolder& run, const FollowedObject& object) {
+    const std::array<std::pair<const char*, const char*>, 4> names{{{"Error in x", "m"},
+                                                                    {"Error in y", "m"},
+                                                                    {"Error of velocity in x", "m/s"},
+                                                                    {"Error of velocity in y", "m/s"}}};
+    const std::array<ErrorCourse, 4> courses = coursesOf(run, object);
+    Figure figure;
+    figure.title = object.name;
+    figure.columns = 2;
+    figure.shared_legend = true;
+    std::string parts;
+    for (std::size_t k = 0; k < courses.size(); ++k) {
+        const auto& errors = courses[k].error;
+        if (std::none_of(errors.begin(), errors.end(), [](double e) { return std::isfinite(e); })) {
+            continue;  // truth may lack velocities
         }
+        const auto& [name, unit] = names[k];
+        figure.panels.push_back(errorPanel(run, name, unit, courses[k], object.style.colour));
+        figure.panels.back().legend = LegendPlace::none;
+        parts += fmt::format("{}{} {:.1f} %", parts.empty() ? "" : ", ", std::string(name).substr(6),
+                             partWithinThreeSigma(courses[k]));
     }
-    return run.run.tracks.empty() ? "the run has no track" : "no track has a source id with a truth";
+    const std::string caption = fmt::format("Within three standard deviations: {}.", parts);
+    return {fmt::format("object_{}_errors", object.source.value),
+            fmt::format("Errors of {} over time. {}", object.name, caption), figure, caption};
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
     std::vector<Block> result;
-    for (const TrackCourses& courses : coursesOf(run)) {
-        const std::string name = nameOf(courses.track), colour = courses.track.style.colour;
-        Figure figure;
-        figure.title = name;
-        figure.columns = 2;
-        figure.shared_legend = true;
-        figure.panels = {errorPanel(run, "Error in x", "m", courses.x, colour),
-                         errorPanel(run, "Error in y", "m", courses.y, colour),
-                         errorPanel(run, "Error of velocity in x", "m/s", courses.speed_x, colour),
-                         errorPanel(run, "Error of velocity in y", "m/s", courses.speed_y, colour)};
-        for (Panel& panel : figure.panels) {
-            panel.legend = LegendPlace::none;
+    const std::vector<FollowedObject> objects = objectsWithTruth(run);
+    for (const FollowedObject& object : objects) {
+        if (result.size() < most_objects_shown) {
+            result.push_back(figureOf(run, object));
         }
-        const std::string caption =
-            fmt::format("Within three standard deviations: x {:.1f} %, y {:.1f} %, velocity in x {:.1f} %, in y {:.1f} %.",
-                        partWithinThreeSigma(courses.x), partWithinThreeSigma(courses.y),
-                        partWithinThreeSigma(courses.speed_x), partWithinThreeSigma(courses.speed_y));
-        result.push_back(PageFigure{fmt::format("track_{}_errors", courses.track.id.value),
-                                    fmt::format("Errors of {} in position and velocity over time. {}", name, caption),
-                                    figure, caption});
     }
-    const std::size_t all = styledTracks(run.run).size();
-    if (all > result.size()) {
-        result.push_back(Paragraph{fmt::format("Shown: the {} longest of {} tracks, of those whose object is known.",
-                                               result.size(), all)});
+    if (objects.size() > result.size()) {
+        result.push_back(Paragraph{fmt::format("The {} longest followed of {} objects.", result.size(), objects.size())});
     }
     return result;
 }

@@ -1,0 +1,191 @@
+"""The pages in a browser, opened as files: nothing complains, everything is drawn, sliders and boxes do what they say,
+keys are enough, and who cannot see well can read it."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import chromium
+
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+SLAMOT = os.environ.get("SLAMOT_PROGRAM", str(SOURCE / "build/release/bin/slamot"))
+AUDIT = (pathlib.Path(__file__).parent / "audit.js").read_text()
+# WCAG 2.1, success criterion 1.4.3.
+LEAST_CONTRAST = 4.5
+
+
+@unittest.skipUnless(chromium.PROGRAM, "the Debian package chromium is not installed")
+class Pages(unittest.TestCase):
+    """One IMM run with truth, tracks, modes; the comparison of it with another; a study of two rows."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="slamot_pages_"))
+        cls.slamot("simulate", SOURCE / "config/scenarios/paper1.ini", "-o", "p1.rawlog", "--seed", "7")
+        for name, config in (("imm", "paper1_imm.ini"), ("ekf", "paper1_ekf.ini")):
+            cls.slamot("run", SOURCE / "config/runs" / config, "p1.rawlog", "-o", name, "--set", "output.figure=false")
+        cls.slamot("compare", "imm", "ekf", "-o", "comparison.html")
+        cls.slamot("study", SOURCE / "config/studies/consistency.ini", "--db", "rows.db", "--replicates", "2", "--report",
+                   "study.html")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder, ignore_errors=True)
+
+    @classmethod
+    def slamot(cls, *arguments):
+        done = subprocess.run([SLAMOT, "-q", *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True,
+                              timeout=300)
+        if done.returncode != 0:
+            raise AssertionError(f"slamot {arguments}: {done.returncode}\n{done.stderr}")
+        return done
+
+    def open(self, name="imm/report.html", **how):
+        return chromium.Page(self.folder / name, **how)
+
+    def test_every_page_draws_all_its_figures_without_a_complaint_or_a_request(self):
+        for name in ("imm/report.html", "comparison.html", "study.html"):
+            for dark in (False, True):
+                with self.subTest(page=name, dark=dark), self.open(name, dark=dark) as page:
+                    page.wait_for_figures()
+                    figures = page.evaluate("document.querySelectorAll('figure[data-figure]').length")
+                    drawn = page.evaluate("document.querySelectorAll('figure svg, figure canvas').length")
+                    self.assertGreater(figures, 0)
+                    self.assertEqual(drawn, figures)
+                    self.assertEqual(page.evaluate("document.documentElement.dataset.theme"), "dark" if dark else "light")
+                    self.assertEqual(page.complaints, [])
+
+    def test_the_check_of_complaints_can_fail(self):
+        with self.open() as page:
+            page.evaluate("setTimeout(() => { throw new Error('on purpose'); }), fetch('http://localhost:9/').catch(() => 0)")
+            self.assertTrue(any("on purpose" in c for c in page.complaints), page.complaints)
+            self.assertTrue(any("localhost:9" in c for c in page.complaints), page.complaints)
+
+    def test_the_slider_moves_the_robot_and_the_words(self):
+        with self.open() as page:
+            picture = "document.querySelector('.replay canvas').toDataURL()"
+            words = "document.querySelector('.replay .state').textContent"
+            end, end_words = page.evaluate(picture), page.evaluate(words)
+            page.evaluate("(() => { const s = document.querySelector('.replay input[type=range]'); s.value = 40;"
+                          " s.dispatchEvent(new Event('input')); })()")
+            self.assertNotEqual(page.evaluate(picture), end)
+            times = page.evaluate("JSON.parse(document.querySelector('.replay script').textContent).times")
+            self.assertTrue(page.evaluate(words).startswith(f"{times[40]:.2f} s of {times[-1]:.2f} s"), page.evaluate(words))
+            self.assertTrue(end_words.startswith(f"{times[-1]:.2f} s"), end_words)
+            # The keyboard alone: one step back, then to the start.
+            page.evaluate("document.querySelector('.replay canvas').focus()")
+            page.key("ArrowLeft")
+            self.assertTrue(page.evaluate(words).startswith(f"{times[39]:.2f} s"), page.evaluate(words))
+            page.key("Home")
+            self.assertTrue(page.evaluate(words).startswith("0.00 s"), page.evaluate(words))
+            self.assertEqual(page.complaints, [])
+
+    def test_landmarks_appear_as_time_goes_on(self):
+        with self.open() as page:
+            count = "Number(/(\\d+) landmarks/.exec(document.querySelector('.replay .state').textContent)[1])"
+            at_end = page.evaluate(count)
+            page.evaluate("document.querySelector('.replay canvas').focus()")
+            page.key("Home")
+            self.assertLess(page.evaluate(count), at_end)
+            summary = json.loads((self.folder / "imm/summary.json").read_text())
+            self.assertEqual(at_end, summary["counts"]["landmarks"])
+
+    def test_play_goes_on_and_pause_stops_it(self):
+        with self.open() as page:
+            page.evaluate("document.querySelector('.speed').value = '1'")
+            page.evaluate("document.querySelector('.play').click()")
+            page.wait_for("Number(document.querySelector('.replay input[type=range]').value) > 0")
+            page.evaluate("document.querySelector('.play').click()")
+            self.assertEqual(page.evaluate("document.querySelector('.play').textContent"), "Play")
+            frame = page.evaluate("document.querySelector('.replay input[type=range]').value")
+            page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            self.assertEqual(page.evaluate("document.querySelector('.replay input[type=range]').value"), frame)
+
+    def test_a_layer_is_hidden_and_shown_again(self):
+        with self.open() as page:
+            page.wait_for_figures()
+            box = "[...document.querySelectorAll('#figure-map .choices label')].find((l) => l.textContent.includes('ellipses')).firstChild"
+            picture = "document.querySelector('#figure-map svg').outerHTML"
+            before = page.evaluate(picture)
+            page.evaluate(f"{box}.click()")
+            without = page.evaluate(picture)
+            self.assertNotEqual(without, before)
+            page.evaluate(f"{box}.click()")
+            self.assertEqual(page.evaluate(picture), before)
+            self.assertEqual(page.complaints, [])
+
+    def test_axes_move_by_buttons_and_keys_and_come_back(self):
+        with self.open() as page:
+            page.wait_for_figures()
+            # Labels of the axes: which elements Vega reuses for them may differ.
+            picture = "[...document.querySelectorAll('#figure-robot_errors svg text')].map((t) => t.textContent).sort()"
+            before = page.evaluate(picture)
+            page.evaluate("document.querySelector('#figure-robot_errors [aria-label=\"Zoom in\"]').click()")
+            self.assertNotEqual(page.evaluate(picture), before)
+            page.evaluate("document.querySelector('#figure-robot_errors .canvas').focus()")
+            page.key("ArrowRight")
+            page.key("0")
+            self.assertEqual(page.evaluate(picture), before)
+
+    def test_values_are_read_where_the_pointer_is(self):
+        with self.open() as page:
+            page.wait_for_figures()
+            page.evaluate("document.querySelector('#figure-robot_errors').scrollIntoView()")
+            place = page.evaluate("(() => { const b = document.querySelector('#figure-robot_errors svg').getBoundingClientRect();"
+                                  " return [b.left + b.width / 2, b.top + 80]; })()")
+            page.send("Input.dispatchMouseEvent", type="mouseMoved", x=place[0], y=place[1])
+            text = page.evaluate("document.querySelector('#figure-robot_errors .readout').textContent")
+            self.assertRegex(text, r"Time since the start \[s\] 1[45].*Error -?\d")
+
+    def test_the_colours_can_be_chosen(self):
+        with self.open() as page:
+            page.wait_for_figures()
+            background = "getComputedStyle(document.body).backgroundColor"
+            light = page.evaluate(background)
+            page.evaluate("(() => { const s = document.getElementById('theme'); s.value = 'dark';"
+                          " s.dispatchEvent(new Event('change')); })()")
+            self.assertNotEqual(page.evaluate(background), light)
+            self.assertEqual(page.evaluate("getComputedStyle(document.querySelector('#figure-map svg')).backgroundColor"),
+                             "rgb(21, 24, 28)")
+            self.assertEqual(page.complaints, [])
+
+    def test_it_prints_in_light_colours_with_every_figure(self):
+        with self.open(dark=True) as page:
+            page.wait_for_figures()
+            page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+            self.assertEqual(page.evaluate("document.documentElement.dataset.theme"), "light")
+            page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+            self.assertEqual(page.evaluate("document.documentElement.dataset.theme"), "dark")
+            page.print_to_pdf(self.folder / "page.pdf")
+            self.assertTrue((self.folder / "page.pdf").read_bytes().startswith(b"%PDF"))
+
+    def test_it_can_be_read_and_used_by_all(self):
+        for name in ("imm/report.html", "comparison.html", "study.html"):
+            for dark in (False, True):
+                with self.subTest(page=name, dark=dark), self.open(name, dark=dark) as page:
+                    page.wait_for_figures()
+                    found = page.evaluate(AUDIT)
+                    self.assertGreater(len(found["contrasts"]), 50)
+                    self.assertEqual([c for c in found["contrasts"] if c["ratio"] < LEAST_CONTRAST], [])
+                    self.assertEqual(found["faults"], [])
+
+    def test_the_audit_can_fail(self):
+        with self.open() as page:
+            page.evaluate("document.querySelector('main').insertAdjacentHTML('beforeend', "
+                          "'<p style=\"color:#aaa\">pale</p><input type=\"text\"><h5>deep</h5><svg></svg>')")
+            found = page.evaluate(AUDIT)
+            self.assertTrue([c for c in found["contrasts"] if c["text"] == "pale" and c["ratio"] < LEAST_CONTRAST])
+            self.assertEqual(len(found["faults"]), 3, found["faults"])
+
+    def test_a_narrow_window_needs_no_sideways_scrolling(self):
+        for width in (800, 400):
+            with self.subTest(width=width), self.open(width=width) as page:
+                page.wait_for_figures()
+                self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+
+
+if __name__ == "__main__":
+    unittest.main()
