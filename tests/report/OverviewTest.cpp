@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../../libs/report/src/OverviewView.h"
+#include "OverviewView.h"
 #include "slamot/report/Overview.h"
 
 namespace slamot::report {

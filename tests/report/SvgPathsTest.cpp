@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "../../libs/report/src/SvgPaths.h"
+#include "SvgPaths.h"
 
 namespace slamot::report {
 namespace {

@@ -110,11 +110,11 @@ class Replay {
   }
 
   inWords() {
-    const {times, robot, tracks, modes} = this.data, i = this.frame;
+    const {times, robot, tracks, modes, landmarkCount} = this.data, i = this.frame;
     const degrees = (robot.theta[i] * 180 / Math.PI).toFixed(1);
     const parts = [`${times[i].toFixed(2)} s of ${times[times.length - 1].toFixed(2)} s`,
                    `robot at ${robot.x[i].toFixed(2)}, ${robot.y[i].toFixed(2)} m, heading ${degrees}°`,
-                   `${this.knownLandmarks().length} landmarks`];
+                   `${landmarkCount[i] ?? this.knownLandmarks().length} landmarks`];
     for (const track of tracks) {
       const k = i - track.from;
       if (track.x[k] === undefined || track.x[k] === null || parts.length > 6) continue;
@@ -133,7 +133,7 @@ class Replay {
         if (frame[places[half]] <= this.frame) low = half + 1;
         else high = half;
       }
-      if (low > 0) rows.push(places[low - 1]);
+      if (low > 0 && this.data.landmarks.x[places[low - 1]] !== null) rows.push(places[low - 1]);
     }
     return rows;
   }

@@ -21,10 +21,10 @@ std::set<std::string> logsOf(const RunGroup& group) {
 }
 
 PageSection tableSection(const std::vector<RunGroup>& groups) {
-    PageTable table{"Metrics", {""}, {}, 1};
+    PageTable table{"Metrics", {{"", false}}, {}};
     for (const RunGroup& group : groups) {
-        table.headings.push_back(group.runs.size() > 1 ? fmt::format("{}, {} runs", group.name, group.runs.size())
-                                                       : group.name);
+        const std::size_t count = group.runs.size();
+        table.columns.push_back({count > 1 ? fmt::format("{}, {} runs", group.name, count) : group.name});
     }
     std::string heading;
     for (const ComparedMetric& metric : compareMetrics(groups)) {
@@ -205,7 +205,7 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
     addCourse(page, groups, "landmark-count", "Number of landmarks", "", coursePanel("Landmarks", "", false), landmarkCount);
     addCourse(page, groups, "step-time", "Step time", "Median within a hundredth of the run.",
               coursePanel("Time of a step", "ms", true), stepTime);
-    PageTable table{"Runs", {"folder", "estimator", "log", "seed"}, {}, 3};
+    PageTable table{"Runs", {{"folder", false}, {"estimator", false}, {"log", false}, {"seed"}}, {}};
     for (const RunGroup& group : groups) {
         table.rows.push_back({{{group.name}}, true});
         for (const RunFolder& run : group.runs) {

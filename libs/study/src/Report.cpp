@@ -13,14 +13,12 @@ namespace slamot::study {
 namespace {
 
 report::PageTable pageTable(const Table& table, const std::string& name) {
-    report::PageTable result{table.caption.empty() ? name : table.caption, {}, {}, 0};
-    for (const Column& column : table.columns) result.headings.push_back(column.heading);
-    const auto numeric =
-        std::find_if(table.columns.begin(), table.columns.end(), [](const Column& c) { return c.numeric; });
-    result.left_columns = static_cast<std::size_t>(numeric - table.columns.begin());
+    report::PageTable result{table.caption.empty() ? name : table.caption, {}, {}};
+    for (const Column& column : table.columns) result.columns.push_back({column.heading, column.numeric});
     for (const TableLine& line : table.lines) {
         report::TableRow row;
-        for (const Field& field : line.fields) row.cells.push_back({field.shown, line.summary});
+        row.strong = line.summary;
+        for (const Field& field : line.fields) row.cells.push_back({field.shown});
         result.rows.push_back(std::move(row));
     }
     return result;
@@ -43,7 +41,7 @@ report::PageSection figureSection(const Findings& findings) {
 }
 
 report::PageSection runSection(const Findings& findings, const Provenance& provenance) {
-    report::PageTable configs{"Configurations", {"name", "settings of its own"}, {}, 2};
+    report::PageTable configs{"Configurations", {{"name", false}, {"settings of its own", false}}, {}};
     for (const Variant& variant : findings.study.variants) {
         std::string settings = variant.overrides.canonicalText();
         std::replace(settings.begin(), settings.end(), '\n', ' ');

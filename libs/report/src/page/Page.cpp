@@ -24,20 +24,20 @@ std::string html(const PageTable& table) {
     std::string out = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" +
                       escaped(table.caption) + "\"><table><caption>" + escaped(table.caption) + "</caption>\n";
     const auto attributes = [&](std::size_t column) {
-        return column < table.left_columns ? "" : " class=\"number\"";
+        return table.columns.at(column).numeric ? " class=\"number\"" : "";
     };
     out += "<thead><tr>";
-    for (std::size_t c = 0; c < table.headings.size(); ++c) {
-        out += cellTag("th", fmt::format(" scope=\"col\"{}", attributes(c)), table.headings[c]);
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        out += cellTag("th", fmt::format(" scope=\"col\"{}", attributes(c)), table.columns[c].heading);
     }
     out += "</tr></thead>\n<tbody>\n";
     for (const TableRow& row : table.rows) {
         if (row.group) {
             out += fmt::format("<tr class=\"group\"><th scope=\"colgroup\" colspan=\"{}\">{}</th></tr>\n",
-                               table.headings.size(), escaped(row.cells.at(0).text));
+                               table.columns.size(), escaped(row.cells.at(0).text));
             continue;
         }
-        out += "<tr>";
+        out += row.strong ? "<tr class=\"strong\">" : "<tr>";
         for (std::size_t c = 0; c < row.cells.size(); ++c) {
             const bool best = row.cells[c].best;
             out += c == 0 ? cellTag("th", " scope=\"row\"", row.cells[c].text)

@@ -11,7 +11,7 @@ std::string always(const RunFolder&) {
 }
 
 std::vector<Block> drops(const RunFolder& run) {
-    PageTable table{"Dropped", {"sensor", "reason", "count"}, {}, 2};
+    PageTable table{"Dropped", {{"sensor", false}, {"reason", false}, {"count"}}, {}};
     for (const auto& drop : run.summary.value("drops", nlohmann::json::array())) {
         table.rows.push_back({{{drop.value("sensor", "")},
                                {drop.value("reason", "")},

@@ -1,6 +1,8 @@
 // How many landmarks and tracks there are.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sections/Courses.h"
 #include "sections/Sections.h"
 
@@ -31,19 +33,28 @@ Panel countPanel(const RunFolder& run, const std::string& label, std::int64_t St
             line.points.emplace_back(t, static_cast<double>(run.steps[i].*count));
         }
     }
+    double most = 5;  // so that the axis has whole numbers
+    for (const Eigen::Vector2d& p : line.points) {
+        most = std::max(most, p.y());
+    }
+    panel.y.max = 1.05 * most;
     panel.layers = {line};
     return panel;
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
     Figure figure;
-    figure.panels = {countPanel(run, "Landmarks", &StepRow::landmarks, colour::black),
-                     countPanel(run, "Tracks", &StepRow::tracks, colour::vermillion)};
+    figure.panels = {countPanel(run, "Landmarks", &StepRow::landmarks, colour::black)};
+    if (!run.run.tracks.empty()) {
+        figure.panels.push_back(countPanel(run, "Tracks", &StepRow::tracks, colour::vermillion));
+    }
     if (const auto seen = run.number("metrics/map_cardinality/seen/landmarks")) {
         figure.panels[0].layers.push_back(Rule{"true ones that were seen in the run", *seen});
+        figure.panels[0].y.max = std::max(*figure.panels[0].y.max, 1.05 * *seen);
     } else if (run.truth && !run.truth->landmarks.empty()) {
-        figure.panels[0].layers.push_back(
-            Rule{"true ones in the world", static_cast<double>(run.truth->landmarks.size())});
+        const auto count = static_cast<double>(run.truth->landmarks.size());
+        figure.panels[0].layers.push_back(Rule{"true ones in the world", count});
+        figure.panels[0].y.max = std::max(*figure.panels[0].y.max, 1.05 * count);
     }
     const StepRow& last = run.steps.back();
     return {PageFigure{"counts",

@@ -26,7 +26,7 @@ Panel neesPanel(const RunFolder& run, const std::string& title, int degrees, Lin
     for (const Eigen::Vector2d& p : line.points) {
         least = p.y() > 0 ? std::min(least, p.y()) : least;
     }
-    panel.y.min = std::max(least, 1e-3 * band.low);  // single lucky steps would stretch the axis without end
+    panel.y.min = std::max(least, 0.05 * band.low);  // single lucky steps would stretch the axis without end
     const double end = run.duration();
     panel.layers.push_back(Band{fmt::format("{:.0f} % of χ² with {} degrees of freedom", 100 * probability, degrees),
                                 {{0, band.low, band.high}, {end, band.low, band.high}},
@@ -86,7 +86,7 @@ std::vector<Block> blocks(const RunFolder& run) {
         }
         Panel panel =
             neesPanel(run, object.name + ", position", 2, lineOf(run, series, "Track", object.style.colour));
-        panel.height = 120;
+        panel.height = 140;
         figure.panels.push_back(std::move(panel));
     }
     std::string caption;

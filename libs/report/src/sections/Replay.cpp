@@ -29,7 +29,7 @@ std::vector<Block> blocks(const RunFolder& run) {
 const ReportSection replay_section{
     "replay", "Replay",
     "Drag the slider, or choose the map and use the arrow keys, Page up and down, Home, End and space; + and - enlarge, 0 "
-    "shows all. Each landmark is drawn as it was when last seen.",
+    "shows all. Each landmark is drawn as it was when last seen; one that is not in the map at the end, until then.",
     absent, blocks};
 
 }  // namespace slamot::report

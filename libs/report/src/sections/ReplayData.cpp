@@ -110,6 +110,7 @@ class Writer {
         data["robot"] = robot();
         data["tracks"] = tracks();
         data["landmarks"] = landmarks();
+        data["landmarkCount"] = landmarkCounts();
         data["seen"] = seen();
         data["sensors"] = sensors();
         addTruth(data);
@@ -210,19 +211,50 @@ class Writer {
             std::sort(places.begin(), places.end(),
                       [](const LandmarkSight& a, const LandmarkSight& b) { return a.stamp < b.stamp; });
         }
+        std::set<LandmarkId> kept;
+        for (const LandmarkEstimate& l : run_.run.landmarks) {
+            kept.insert(l.id);
+        }
+        std::map<LandmarkId, std::size_t> last;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            last[places[i].id] = i;
+        }
         Columns columns(digits_);
         json result = {{"frame", json::array()}, {"index", json::array()}, {"x", json::array()}, {"y", json::array()},
                        {"a", json::array()},     {"b", json::array()},     {"angle", json::array()}};
-        for (const LandmarkSight& place : places) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const LandmarkSight& place = places[i];
             const std::size_t index = landmark_index_.try_emplace(place.id, landmark_index_.size()).first->second;
-            columns.whole("frame", static_cast<std::int64_t>(frameOf(place.stamp)));
+            const auto frame = static_cast<std::int64_t>(frameOf(place.stamp));
+            columns.whole("frame", frame);
             columns.whole("index", static_cast<std::int64_t>(index));
             columns.point(place.mean);
             columns.ellipse(place.covariance);
+            if (last[place.id] == i && kept.count(place.id) == 0) {
+                // Merged or removed since: nothing says when, so it goes after it was last seen.
+                columns.whole("frame", frame + 1);
+                columns.whole("index", static_cast<std::int64_t>(index));
+                columns.unknown({"x", "y", "a", "b", "angle"});
+            }
         }
         result.update(columns.take());
         result["count"] = landmark_index_.size();
         return result;
+    }
+
+    /// Landmarks in the estimate at each frame; empty where steps.csv is not there.
+    json landmarkCounts() const {
+        json counts = json::array();
+        std::size_t row = 0;
+        for (const Stamp stamp : stamps_) {
+            while (row + 1 < run_.steps.size() && run_.steps[row + 1].stamp <= stamp) {
+                ++row;
+            }
+            if (!run_.steps.empty()) {
+                counts.push_back(run_.steps[row].landmarks);
+            }
+        }
+        return counts;
     }
 
     /// What was used at each frame: landmarks by their index, tracks as -1 minus theirs.

@@ -8,7 +8,7 @@ namespace slamot::report {
 namespace {
 
 PageTable metricsTable(const RunFolder& run) {
-    PageTable table{"Metrics", {"", "value"}, {}, 1};
+    PageTable table{"Metrics", {{"", false}, {"value"}}, {}};
     std::string group;
     for (const MetricRow& row : metricRows()) {
         const std::optional<double> value = valueOf(row, run);
@@ -25,7 +25,7 @@ PageTable metricsTable(const RunFolder& run) {
 }
 
 PageTable runTable(const RunFolder& run) {
-    PageTable table{"What was run", {"", ""}, {}, 2};
+    PageTable table{"What was run", {{"", false}, {"", false}}, {}};
     const auto add = [&](const std::string& name, const std::string& value) {
         if (!value.empty()) {
             table.rows.push_back({{{name}, {value}}});

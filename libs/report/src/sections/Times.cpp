@@ -17,7 +17,7 @@ std::string absent(const RunFolder& run) {
 }
 
 PageTable timeTable(const RunFolder& run) {
-    PageTable table{"Wall time", {"", "value"}, {}, 1};
+    PageTable table{"Wall time", {{"", false}, {"value"}}, {}};
     const std::tuple<const char*, const char*, const char*> rows[] = {
         {"whole run", "time/wall_s", "s"},        {"of it prediction", "time/predict_s", "s"},
         {"of it detection", "time/detect_s", "s"}, {"of it update", "time/update_s", "s"},

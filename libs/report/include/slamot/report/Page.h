@@ -27,14 +27,19 @@ struct TableCell {
 struct TableRow {
     std::vector<TableCell> cells;
     bool group = false;  ///< a heading within the table: its first cell alone
+    bool strong = false;  ///< stands out: a sum, a ranking's result
 };
 
-/// The first column names the rows; columns after `left_columns` are numbers, aligned to the right.
+struct TableColumn {
+    std::string heading;
+    bool numeric = true;  ///< aligned to the right
+};
+
+/// The first column names the rows.
 struct PageTable {
     std::string caption;
-    std::vector<std::string> headings;
+    std::vector<TableColumn> columns;
     std::vector<TableRow> rows;
-    std::size_t left_columns = 1;
 };
 
 /// `alt` says what is seen, for who does not see it; `name` is the picture's file name.

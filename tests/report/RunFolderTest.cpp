@@ -1,0 +1,99 @@
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <cstring>
+
+#include "report/RunFiles.h"
+#include "slamot/rawlog/LogError.h"
+#include "slamot/report/RunFolder.h"
+
+namespace slamot::report {
+namespace {
+
+using ::testing::HasSubstr;
+using test::TemporaryFolder;
+
+std::string errorOf(const std::string& folder) {
+    try {
+        readRunFolder(folder);
+    } catch (const LogError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(RunFolder, readsWhatARunLeft) {
+    const TemporaryFolder folder, truth;
+    test::writeRun(folder);
+    test::writeTruth(truth);
+    const RunFolder run = readRunFolder(folder.path(), truth.path());
+    EXPECT_EQ(run.duration(), 3);
+    ASSERT_EQ(run.sights.size(), 3u);
+    EXPECT_EQ(run.sights[0].covariance(1, 1), 9);
+    EXPECT_EQ(run.sights[2].mean.y(), 5.5);
+    ASSERT_EQ(run.steps.size(), 4u);
+    EXPECT_EQ(run.steps[1].landmarks, 2);
+    EXPECT_EQ(run.steps[2].update_ms, 3);
+    EXPECT_EQ(run.pairs.size(), 4u);
+    EXPECT_EQ(run.number("time/step_ms/mean"), 0.25);
+    EXPECT_FALSE(run.number("metrics/robot/position/rmse"));
+    EXPECT_FALSE(run.correlation);
+}
+
+TEST(RunFolder, switchedOffFilesLeaveTheirPartEmpty) {
+    const TemporaryFolder folder;
+    folder.write("trajectory.csv", test::trajectory_csv);
+    folder.write("summary.json", test::summaryJson());
+    const RunFolder run = readRunFolder(folder.path());
+    EXPECT_TRUE(run.sights.empty() && run.steps.empty() && run.run.landmarks.empty());
+    EXPECT_EQ(run.why_no_truth, "the run had none");
+}
+
+TEST(RunFolder, saysWhereTruthThatIsGoneWas) {
+    const TemporaryFolder folder;
+    std::string summary = test::summaryJson();
+    summary.replace(summary.find(R"("truth": null)"), 13, R"("truth": "no/such.truth")");
+    test::writeRun(folder, summary);
+    EXPECT_THAT(readRunFolder(folder.path()).why_no_truth, HasSubstr("no/such.truth"));
+    EXPECT_THROW(readRunFolder(folder.path(), "no/such.truth"), LogError);  // asked for: an error
+}
+
+TEST(RunFolder, refusesWhatNoRunLeft) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("no summary.json"));
+    folder.write("summary.json", R"({"program": "another"})");
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("is not what slamot writes"));
+    folder.write("summary.json", "{");
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("is not what slamot writes"));
+}
+
+TEST(RunFolder, readsTheCorrelationMatrixAndRefusesABrokenOne) {
+    const TemporaryFolder folder;
+    test::writeRun(folder);
+    const std::uint32_t header[] = {1, 9, 2};
+    const float cells[] = {1, 0.5F, -0.5F, 1};
+    std::string bytes = "SLAMCORR";
+    bytes.append(reinterpret_cast<const char*>(header), sizeof header);
+    bytes.append(reinterpret_cast<const char*>(cells), sizeof cells);
+    folder.write("correlation.bin", bytes);
+    const RunFolder run = readRunFolder(folder.path());
+    ASSERT_TRUE(run.correlation);
+    EXPECT_EQ(run.correlation->dimension, 9);
+    EXPECT_EQ(run.correlation->cells(0, 1), 0.5F);
+    EXPECT_EQ(run.correlation->cells(1, 0), -0.5F);
+    folder.write("correlation.bin", bytes.substr(0, bytes.size() - 1));
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("correlation.bin"));
+    bytes[16] = 3;  // rows that the file does not have
+    folder.write("correlation.bin", bytes);
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("correlation.bin"));
+}
+
+TEST(RunFolder, namesFileAndLineOfABrokenRow) {
+    const TemporaryFolder folder;
+    test::writeRun(folder);
+    folder.write("steps.csv", "t,landmarks,tracks,ms_predict,ms_detect,ms_update\n1000.0,many,0,1,1,1\n1001.0,1,0,1,1,1\n");
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("steps.csv:2"));
+}
+
+}  // namespace
+}  // namespace slamot::report
