@@ -125,6 +125,7 @@ class Replay {
 
   /** The row of history that says where each landmark was, as far as it is known by now. */
   knownLandmarks() {
+    if (this.knownAt === this.frame) return this.known;
     const {frame} = this.data.landmarks, rows = [];
     for (const places of this.history) {
       let low = 0, high = places.length;
@@ -135,6 +136,8 @@ class Replay {
       }
       if (low > 0 && this.data.landmarks.x[places[low - 1]] !== null) rows.push(places[low - 1]);
     }
+    this.knownAt = this.frame;
+    this.known = rows;
     return rows;
   }
 
@@ -198,6 +201,7 @@ class Replay {
     c.beginPath();
     trueLandmarks.x.forEach((x, i) => {
       const px = this.toX(x), py = this.toY(trueLandmarks.y[i]);
+      if (px < 0 || py < 0 || px > this.canvas.width || py > this.canvas.height) return;
       c.moveTo(px - 3, py - 3); c.lineTo(px + 3, py + 3);
       c.moveTo(px - 3, py + 3); c.lineTo(px + 3, py - 3);
     });
@@ -245,18 +249,15 @@ class Replay {
   drawLandmarks() {
     const {landmarks, colours} = this.data, c = this.context, rows = this.knownLandmarks();
     c.fillStyle = c.strokeStyle = theme.themed(colours.landmark);
-    c.beginPath();
     for (const row of rows) {
-      const px = this.toX(landmarks.x[row]), py = this.toY(landmarks.y[row]);
-      c.moveTo(px + 1.8, py);
-      c.arc(px, py, 1.8, 0, 2 * Math.PI);
+      c.fillRect(this.toX(landmarks.x[row]) - 1.5, this.toY(landmarks.y[row]) - 1.5, 3, 3);
     }
-    c.fill();
     if (!this.wants('ellipses')) return;
     c.lineWidth = 0.8;
     c.globalAlpha = 0.6;
     c.beginPath();
     for (const row of rows) {
+      if (landmarks.a[row] * this.pixels < 1.5) continue;  // beneath the mark
       this.ellipse(landmarks.x[row], landmarks.y[row], landmarks.a[row], landmarks.b[row], landmarks.angle[row]);
     }
     c.stroke();

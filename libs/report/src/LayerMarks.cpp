@@ -127,6 +127,9 @@ LayerSpec specOf(const Band& band, const std::string& name, const PanelView& vie
 }
 
 LayerSpec specOf(const Ellipses& ellipses, const std::string& name, const PanelView& view) {
+    // Of very many, those that vanish beneath the mark of their middle are left out.
+    constexpr std::size_t many = 2000;
+    const double least_radius = ellipses.gaussians.size() > many ? 1.5 : 0;  // pixels
     std::vector<Points2> outlines;
     for (const GaussianPoint& g : ellipses.gaussians) {
         if (!view.shows(g.mean) || !g.covariance.allFinite()) {
@@ -135,7 +138,7 @@ LayerSpec specOf(const Ellipses& ellipses, const std::string& name, const PanelV
         const double sigma = std::sqrt(std::max(0.0, g.covariance.trace()));
         const Eigen::Vector2d beside = g.mean + Eigen::Vector2d(ellipses.k * sigma, 0);
         const double radius = std::abs(view.toPixel(beside).x() - view.toPixel(g.mean).x());
-        if (nearPanel(g.mean, view, radius)) {
+        if (radius >= least_radius && nearPanel(g.mean, view, radius)) {
             // A chord of n strays from its arc by r (pi/n)^2 / 2; this keeps it below a sixth of a pixel.
             const int count = std::clamp(static_cast<int>(std::ceil(5.5 * std::sqrt(radius))), 12, 120);
             outlines.push_back(ellipseOutline(g, ellipses.k, count));

@@ -69,7 +69,11 @@ Windows::Windows(const RunFolder& run, std::size_t count)
     : run_(run), count_(count), length_(std::max(run.duration(), 1e-9) / static_cast<double>(count)) {}
 
 std::size_t Windows::of(Stamp stamp) const {
-    const double place = run_.seconds(stamp) / length_;
+    return at(run_.seconds(stamp));
+}
+
+std::size_t Windows::at(double seconds) const {
+    const double place = seconds / length_;
     return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), count_ - 1);
 }
 

@@ -36,6 +36,7 @@ class Windows {
   public:
     Windows(const RunFolder& run, std::size_t count);
     std::size_t of(Stamp stamp) const;
+    std::size_t at(double seconds) const;
     std::size_t count() const { return count_; }
     double begin(std::size_t window) const { return length_ * static_cast<double>(window); }
     double middle(std::size_t window) const { return length_ * (static_cast<double>(window) + 0.5); }

@@ -1,8 +1,10 @@
 // Normalized innovations squared by sensor and kind.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "sections/Courses.h"
 #include "sections/Sections.h"
@@ -27,11 +29,51 @@ std::map<Group, Rows> groupsOf(const RunFolder& run) {
     return groups;
 }
 
+/// The mean NIS of each window, and the band it should lie in.
+void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows, double probability) {
+    Line mean{"mean over a window", {}, colour::black, 1.8};
+    Band band{fmt::format("{:.0f} % band of that mean", 100 * probability), {}, colour::green, 0.45};
+    for (std::size_t w = 0; w < windows.count(); ++w) {
+        const auto n = static_cast<double>(values[w].size());
+        const double sum = std::accumulate(values[w].begin(), values[w].end(), 0.0);
+        const eval::Band b = n > 0 ? eval::chiSquareBand(probability, degrees * n, n)
+                                   : eval::Band{std::nan(""), std::nan("")};
+        mean.points.emplace_back(windows.middle(w), n > 0 ? sum / n : std::nan(""));
+        for (const double end : {windows.begin(w), windows.begin(w + 1)}) {
+            band.rows.push_back({end, b.low, b.high});
+        }
+    }
+    panel.layers.push_back(std::move(band));
+    panel.layers.push_back(std::move(mean));
+}
+
+/// Of very many innovations the middle 90 % as an area, beside where they should lie, and only the outermost as
+/// points.
+void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows, Points used) {
+    Band middle{"5 % to 95 % of the innovations", {}, colour::sky, 0.35};
+    std::vector<double> low(windows.count()), high(windows.count());
+    for (std::size_t w = 0; w < windows.count(); ++w) {
+        middle.rows.push_back({windows.middle(w), quantile(values[w], 0.05), quantile(values[w], 0.95)});
+        low[w] = quantile(values[w], 0.005);
+        high[w] = quantile(values[w], 0.995);
+    }
+    const auto inside = [&](const Eigen::Vector2d& p) {
+        const std::size_t w = windows.at(p.x());
+        return low[w] <= p.y() && p.y() <= high[w];
+    };
+    used.label = "the outermost 1 %";
+    used.points.erase(std::remove_if(used.points.begin(), used.points.end(), inside), used.points.end());
+    const eval::Band expected = eval::chiSquareBand(0.9, degrees);
+    panel.layers = {middle, used, Rule{"5 % and 95 % of χ²", expected.low, false, colour::blue},
+                    Rule{"", expected.high, false, colour::blue}};
+}
+
 Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
+    constexpr std::size_t many = 5000;
     const double probability = bandProbability(run);
     const Windows windows = windowsFor(run, rows.size(), most_windows);
-    std::vector<double> sums(windows.count(), 0), counts(windows.count(), 0);
-    Points used{"innovations used", {}, colour::sky, Symbol::dot, 2.5, 0.5};
+    std::vector<std::vector<double>> values(windows.count());
+    Points used{"innovations used", {}, colour::sky, Symbol::dot, 3, 0.8};
     Points rejected{"rejected or down-weighted", {}, colour::vermillion, Symbol::times, 5, 0.8};
     double inside = 0;
     const eval::Band single = eval::chiSquareBand(probability, degrees);
@@ -40,35 +82,26 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
         const bool ordinary = row->innovation.outcome == Outcome::updated;
         (ordinary ? used : rejected).points.emplace_back(run.seconds(row->stamp), nis);
         inside += single.contains(nis);
-        const std::size_t window = windows.of(row->stamp);
-        sums[window] += nis;
-        counts[window] += 1;
-    }
-    Line mean{"mean over a window", {}, colour::black, 1.8};
-    Band band{fmt::format("{:.0f} % band of that mean", 100 * probability), {}, colour::green, 0.35};
-    for (std::size_t w = 0; w < windows.count(); ++w) {
-        const bool any = counts[w] > 0;
-        mean.points.emplace_back(windows.middle(w), any ? sums[w] / counts[w] : std::nan(""));
-        const eval::Band b = any ? eval::chiSquareBand(probability, degrees * counts[w], counts[w])
-                                 : eval::Band{std::nan(""), std::nan("")};
-        for (const double end : {windows.begin(w), windows.begin(w + 1)}) {
-            band.rows.push_back({end, b.low, b.high});
-        }
+        values[windows.of(row->stamp)].push_back(nis);
     }
     Panel panel;
-    panel.title = fmt::format("{}: {}, {:.1f} % of {} within {:.2g} to {:.2g}", group.first.empty() ? "(no label)" : group.first,
-                              toText(group.second), 100 * inside / static_cast<double>(rows.size()), rows.size(),
-                              single.low, single.high);
+    panel.title = fmt::format("{}: {}, {:.1f} % of {} within {:.2g} to {:.2g}",
+                              group.first.empty() ? "(no label)" : group.first, toText(group.second),
+                              100 * inside / static_cast<double>(rows.size()), rows.size(), single.low, single.high);
     panel.x = runTimeAxis(run);
     panel.y.label = "NIS";
     panel.y.logarithmic = true;
     panel.y.min = 0.01;
     panel.height = 200;
-    panel.layers = {used};
+    if (used.points.size() > many) {
+        addMany(panel, values, windows, std::move(used));
+    } else {
+        panel.layers = {used};
+    }
     if (!rejected.points.empty()) {
         panel.layers.push_back(rejected);
     }
-    panel.layers.insert(panel.layers.end(), {Layer(band), Layer(mean)});
+    addMeans(panel, values, windows, probability);
     return panel;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_frames = 2000, most_places = 60000, most_sights = 60000;
+constexpr std::size_t most_frames = 2000, most_places = 30000, most_sights = 60000;
 constexpr double map_pixels = 900;  // about the width of the picture
 
 /// Half axes at three standard deviations, and the angle of the longer one.
@@ -32,7 +32,7 @@ Axes axesOf(const Matrix2& covariance) {
             std::atan2(along.y(), along.x())};
 }
 
-/// Columns of numbers for JavaScript, with as many digits as can be seen after zooming in a hundred times.
+/// Columns of numbers for JavaScript, with as many digits as can be seen after zooming in twenty times.
 class Columns {
   public:
     explicit Columns(int digits) : digits_(digits) {}
@@ -87,7 +87,7 @@ class Writer {
   public:
     explicit Writer(const RunFolder& run) : run_(run), frames_(framesOf(run)) {
         findView();
-        digits_ = static_cast<int>(std::ceil(-std::log10(pixel_ / 100)));
+        digits_ = static_cast<int>(std::ceil(-std::log10(pixel_ / 20)));
         for (const std::size_t frame : frames_) {
             stamps_.push_back(run.run.trajectory[frame].stamp);
         }
