@@ -15,4 +15,4 @@ mkdir -p out
 $slamot simulate config/scenarios/demo.ini -o out/demo.rawlog
 echo "== 4/4 the main job: robot, map and movers from odometry and range-bearing observations"
 $slamot run config/runs/demo.ini out/demo.rawlog -o out/demo
-echo "picture: out/demo/overview.png   summary: out/demo/summary.json"
+echo "report: out/demo/report.html   picture: out/demo/overview.png   summary: out/demo/summary.json"

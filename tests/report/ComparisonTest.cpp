@@ -1,5 +1,3 @@
-#include "slamot/report/Comparison.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,15 +6,17 @@
 
 #include "MetricRows.h"
 #include "report/RunFiles.h"
+#include "slamot/report/Comparison.h"
 
 namespace slamot::report {
 namespace {
 
-using ::testing::HasSubstr;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 std::string rmse(const std::string& value) {
-    return R"({"robot": {"position": {"rmse": )" + value + R"(}}, "robot_nees": {"average": 6, "mean_dimension": 3}})";
+    return R"({"robot": {"position": {"rmse": )" + value +
+           R"(}}, "robot_nees": {"average": 6, "mean_dimension": 3}})";
 }
 
 /// Folders NAME within one temporary folder.
@@ -90,8 +90,9 @@ TEST_F(Comparison, theTableFitsEightyColumns) {
 
 TEST_F(Comparison, thePageWarnsOfOtherLogs) {
     const auto page = [&](const std::string& log) {
-        return toHtml(comparisonPage(groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"))),
-                                                run("two", withKey(test::summaryJson(log, rmse("2")), "2"))})));
+        return toHtml(
+            comparisonPage(groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"))),
+                                      run("two", withKey(test::summaryJson(log, rmse("2")), "2"))})));
     };
     EXPECT_THAT(page("b.rawlog"), HasSubstr("not of the same logs"));
     EXPECT_THAT(page("a.rawlog"), ::testing::Not(HasSubstr("not of the same logs")));

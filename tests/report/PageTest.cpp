@@ -1,5 +1,3 @@
-#include "slamot/report/Page.h"
-
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +6,7 @@
 #include "page/Html.h"
 #include "slamot/report/FigureSpec.h"
 #include "slamot/report/FigureWriter.h"
+#include "slamot/report/Page.h"
 #include "support/TemporaryFolder.h"
 
 namespace slamot::report {
@@ -28,7 +27,7 @@ Figure lineFigure(Points2 points, bool logarithmic = false) {
 
 TEST(Html, nothingFromAFileIsMarkup) {
     EXPECT_EQ(escaped("<b a=\"1\" c='2'>&amp;"), "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;amp;");
-    EXPECT_EQ(escaped("a\xFFz"), "a\xEF\xBF\xBDz");     // no UTF-8
+    EXPECT_EQ(escaped("a\xFFz"), "a\xEF\xBF\xBDz");                // no UTF-8
     EXPECT_EQ(escaped(std::string("a\0z", 3)), "a\xEF\xBF\xBDz");  // a character that HTML forbids
     EXPECT_EQ(escaped("3σ\n"), "3σ\n");
     EXPECT_EQ(inScript(R"({"a":"</script><!--"})"), R"({"a":"\u003c/script>\u003c!--"})");
@@ -41,15 +40,19 @@ TEST(Page, everythingOfItIsText) {
     PageTable table{evil, {{evil, false}, {evil}}, {{{{evil}, {evil}}}, {{{evil}}, true}}};
     Figure figure = lineFigure({{0, 0}, {1, 1}});
     figure.title = figure.panels[0].title = evil;
-    page.sections.push_back({"id", evil, evil,
-                             {Paragraph{evil}, Verbatim{evil, evil, true}, table, PageFigure{"name", evil, figure, evil},
-                              ReplayView{evil, json({{"text", evil}}).dump(), {{evil, "#000000"}, {evil, "#000000"}}}}});
+    page.sections.push_back(
+        {"id",
+         evil,
+         evil,
+         {Paragraph{evil}, Verbatim{evil, evil, true}, table, PageFigure{"name", evil, figure, evil},
+          ReplayView{evil, json({{"text", evil}}).dump(), {{evil, "#000000"}, {evil, "#000000"}}}}});
     EXPECT_THAT(toHtml(page), Not(HasSubstr("<script>alert")));
 }
 
 TEST(Page, needsNothingFromElsewhere) {
     Page page;
-    page.sections.push_back({"id", "title", "", {PageFigure{"name", "alt", lineFigure({{0, 0}, {1, 1}}), ""}}});
+    page.sections.push_back(
+        {"id", "title", "", {PageFigure{"name", "alt", lineFigure({{0, 0}, {1, 1}}), ""}}});
     const std::string html = toHtml(page);
     for (const char* way : {"<link", "<img", " src=", "@import", "url("}) {
         EXPECT_EQ(html.substr(0, html.find("<script>")).find(way), std::string::npos) << way;
@@ -62,7 +65,11 @@ TEST(Page, needsNothingFromElsewhere) {
 TEST(Page, marksTheBestAndHeadsGroups) {
     Page page;
     page.sections.push_back(
-        {"id", "title", "", {PageTable{"T", {{"", false}, {"a"}, {"b"}}, {{{{"Robot"}}, true}, {{{"x"}, {"1", true}, {"2"}}}}}}});
+        {"id",
+         "title",
+         "",
+         {PageTable{
+             "T", {{"", false}, {"a"}, {"b"}}, {{{{"Robot"}}, true}, {{{"x"}, {"1", true}, {"2"}}}}}}});
     const std::string html = toHtml(page);
     EXPECT_THAT(html, HasSubstr("<th scope=\"colgroup\" colspan=\"3\">Robot</th>"));
     EXPECT_THAT(html, HasSubstr("<td class=\"number best\">1</td><td class=\"number\">2</td>"));
@@ -105,7 +112,8 @@ TEST(FigureMeta, saysWhichMarksALabelStandsForAndWhichAxesMove) {
     Figure figure = lineFigure({{0, 1}, {1, 1}}, true);
     figure.panels.push_back(lineFigure({{0, 1}, {1, 2}}).panels[0]);
     const json meta = figureSpec(figure).at("usermeta");
-    EXPECT_EQ(meta.at("layers"), json::parse(R"([{"label":"a <line>","marks":["mark_p0_l0","mark_p1_l0"]}])"));
+    EXPECT_EQ(meta.at("layers"),
+              json::parse(R"([{"label":"a <line>","marks":["mark_p0_l0","mark_p1_l0"]}])"));
     EXPECT_FALSE(meta.at("panels")[0].at("y").at("moves").get<bool>());  // logarithmic
     EXPECT_TRUE(meta.at("panels")[1].at("y").at("moves").get<bool>());
 }

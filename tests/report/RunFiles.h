@@ -22,7 +22,8 @@ inline std::string summaryJson(const std::string& log = "my.rawlog", const std::
            R"(, "config": "[my_estimator]\nkey = 1\n[run]\nestimator = my_estimator\nseed = )" + seed +
            R"(\n", "counts": {"detections": 3, "landmarks": 1, "tracks_at_end": 0}, "drops": [{"sensor": "<b>lidar", )"
            R"("reason": "no-detector", "count": 7}], "sensors": [], "warnings": [], "estimate_sha256": "abc", )"
-           R"("time": {"wall_s": 1.5, "step_ms": {"mean": 0.25}}, "peak_memory_mb": 80, "metrics": )" + metrics + "}";
+           R"("time": {"wall_s": 1.5, "step_ms": {"mean": 0.25}}, "peak_memory_mb": 80, "metrics": )" +
+           metrics + "}";
 }
 
 /// Landmarks 1 and 2, of which 2 is not in the map at the end.
@@ -44,7 +45,8 @@ inline void writeRun(const TemporaryFolder& folder, const std::string& summary =
                  "1002.0000000,1,0,0.5,0,3\n"
                  "1003.0000000,1,0,0.5,0,0\n");
     folder.write("innovations.csv",
-                 "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection,log_number,log_count\n"
+                 "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection,log_"
+                 "number,log_count\n"
                  "1000.0000000,eye,landmark,1,-1,initiated,nan,nan,nan,nan,nan,nan,0,0,1\n"
                  "1001.0000000,eye,landmark,2,-1,updated,0.1,0,1,0,1,2.5,0,0,1\n"
                  "1002.0000000,eye,landmark,1,-1,rejected,0.1,0,1,0,1,20,0,0,1\n");
@@ -52,8 +54,9 @@ inline void writeRun(const TemporaryFolder& folder, const std::string& summary =
 
 /// The robot on y = 0, landmark 10 at (5, 5).
 inline void writeTruth(const TemporaryFolder& folder) {
-    folder.write("robot.csv",
-                 "t,x,y,theta\n1000.0000000,0,0,0\n1001.0000000,1,0,0\n1002.0000000,2,0,0\n1003.0000000,3,0,0\n");
+    folder.write(
+        "robot.csv",
+        "t,x,y,theta\n1000.0000000,0,0,0\n1001.0000000,1,0,0\n1002.0000000,2,0,0\n1003.0000000,3,0,0\n");
     folder.write("landmarks.csv", "id,x,y\n10,5,5\n");
     folder.write("truth.json", "{}");
 }

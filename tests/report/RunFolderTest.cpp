@@ -10,8 +10,8 @@
 namespace slamot::report {
 namespace {
 
-using ::testing::HasSubstr;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 std::string errorOf(const std::string& folder) {
     try {
@@ -91,7 +91,9 @@ TEST(RunFolder, readsTheCorrelationMatrixAndRefusesABrokenOne) {
 TEST(RunFolder, namesFileAndLineOfABrokenRow) {
     const TemporaryFolder folder;
     test::writeRun(folder);
-    folder.write("steps.csv", "t,landmarks,tracks,ms_predict,ms_detect,ms_update\n1000.0,many,0,1,1,1\n1001.0,1,0,1,1,1\n");
+    folder.write(
+        "steps.csv",
+        "t,landmarks,tracks,ms_predict,ms_detect,ms_update\n1000.0,many,0,1,1,1\n1001.0,1,0,1,1,1\n");
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("steps.csv:2"));
 }
 

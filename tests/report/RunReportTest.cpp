@@ -1,21 +1,20 @@
-#include "slamot/report/RunReport.h"
-
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "report/RunFiles.h"
 #include "sections/Courses.h"
 #include "sections/ReplayData.h"
-#include "report/RunFiles.h"
 #include "slamot/report/ReportSection.h"
+#include "slamot/report/RunReport.h"
 
 namespace slamot::report {
 namespace {
 
 using nlohmann::json;
-using ::testing::HasSubstr;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 class RunReport : public ::testing::Test {
   protected:
@@ -72,7 +71,8 @@ TEST_F(RunReport, nisLeavesOutWhatHadNoPrediction) {
 TEST_F(RunReport, landmarkErrorsAreThoseKnownAtTheTime) {
     const Figure figure = figureOf(runPage(run()), "landmark-errors");
     const Line& median = std::get<Line>(figure.panels.at(0).layers.at(2));
-    EXPECT_NEAR(median.points.front().y(), 2, 1e-12);   // (5, 7) against (5, 5); landmark 2 has no truth near it
+    EXPECT_NEAR(median.points.front().y(), 2,
+                1e-12);  // (5, 7) against (5, 5); landmark 2 has no truth near it
     EXPECT_NEAR(median.points.back().y(), 0.5, 1e-12);  // seen again
 }
 
@@ -109,7 +109,9 @@ TEST_F(RunReport, sectionsHaveNamesOfTheirOwn) {
 
 TEST_F(RunReport, droppedDataIsTextInATable) {
     const std::string html = toHtml(runPage(run()));
-    EXPECT_THAT(html, HasSubstr("<th scope=\"row\">&lt;b&gt;lidar</th><td>no-detector</td><td class=\"number\">7</td>"));
+    EXPECT_THAT(
+        html,
+        HasSubstr("<th scope=\"row\">&lt;b&gt;lidar</th><td>no-detector</td><td class=\"number\">7</td>"));
 }
 
 TEST_F(RunReport, theReplayShowsLandmarksAsTheyCome) {

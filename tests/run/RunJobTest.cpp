@@ -84,6 +84,17 @@ TEST_F(RunJobTest, ArrivalInAnotherOrderGivesTheSameRun) {
     EXPECT_NE(runLog("c.rawlog", "").estimate_hash, in_order.estimate_hash);
 }
 
+TEST_F(RunJobTest, TheSummaryListsTheSensorsThatDetectionsCameFrom) {
+    writeLog(path("a.rawlog"), drive());
+    const auto sensors = runLog("a.rawlog", "").summary["sensors"];
+    ASSERT_EQ(sensors.size(), 2u);
+    EXPECT_EQ(sensors[0]["label"], "landmarks");
+    EXPECT_EQ(sensors[0]["kind"], "landmark");
+    EXPECT_EQ(sensors[1]["label"], "movers");
+    for (const char* number : {"x", "y", "theta", "min_range", "max_range", "field_of_view"})
+        EXPECT_TRUE(sensors[0][number].is_number()) << number;
+}
+
 TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {
     writeLog(path("a.rawlog"), drive());
     runLog("a.rawlog", "");

@@ -72,7 +72,8 @@ class SlamotTest(unittest.TestCase):
         self.assertLess(len(lines[0]), 600, told)
 
     def run_log(self, log, *arguments, config=EKF, out="out", **expected):
-        return self.slamot("-q", "run", config, log, "-o", out, "--set", "output.figure=false", *arguments, **expected)
+        return self.slamot("-q", "run", config, log, "-o", out, "--set", "output.figure=false", "--set",
+                           "output.report=false", *arguments, **expected)
 
     def summary(self, out="out"):
         return json.loads(self.path(out).joinpath("summary.json").read_text())

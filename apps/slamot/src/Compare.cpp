@@ -26,9 +26,10 @@ int compareJob(const Options& options, const Verbosity& verbosity) {
 }  // namespace
 
 void addCompare(CLI::App& app, Action& chosen) {
-    auto* command = app.add_subcommand("compare",
-                                       "Runs side by side: one table, one page. Runs that differ by seed or log alone "
-                                       "are taken together.\nExample: slamot compare out/p1 out/p1_classic -o p1.html");
+    auto* command =
+        app.add_subcommand("compare",
+                           "Runs side by side: one table, one page. Runs that differ by seed or log alone "
+                           "are taken together.\nExample: slamot compare out/p1 out/p1_classic -o p1.html");
     auto options = std::make_shared<Options>();
     command->add_option("runs", options->runs, "Output folders of runs")->required();
     command->add_option("-o,--out", options->out, "Page to write")->capture_default_str();

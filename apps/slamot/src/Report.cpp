@@ -26,9 +26,10 @@ int reportJob(const Options& options, const Verbosity& verbosity) {
 }  // namespace
 
 void addReport(CLI::App& app, Action& chosen) {
-    auto* command = app.add_subcommand("report",
-                                       "The page of a run again, from its files, and its plots as pictures.\nExample: "
-                                       "slamot report out/ --pictures out/pictures");
+    auto* command =
+        app.add_subcommand("report",
+                           "The page of a run again, from its files, and its plots as pictures.\nExample: "
+                           "slamot report out/ --pictures out/pictures");
     auto options = std::make_shared<Options>();
     command->add_option("run", options->run, "Output folder of a run")->required();
     command->add_option("--truth", options->truth, "Truth folder; default: the run's; none: no truth");

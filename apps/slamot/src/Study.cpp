@@ -132,7 +132,8 @@ std::string commandOf(const Options& options, const std::string& option, const s
 /// What the rows say, where it was asked for; false when a check failed.
 bool tellFindings(const study::Session& session, const study::Analysis& analysis, const Options& options,
                   const PluginRegistry& registry) {
-    if (!options.check && options.export_folder.empty() && options.pages.empty() && options.report_file.empty())
+    if (!options.check && options.export_folder.empty() && options.pages.empty() &&
+        options.report_file.empty())
         return true;
     const std::vector<study::Row> rows = session.rows();
     if (rows.empty() && !options.report_file.empty())
@@ -168,8 +169,8 @@ void requireOptionsThatFit(const Options& options) {
         throw UsageError("--keep: expected without --list, --no-run and --merge, which run nothing");
     if (!options.shard.empty() && (options.no_run || !options.merge.empty()))
         throw UsageError("--shard: expected without --no-run and --merge, which run nothing");
-    if (!options.shard.empty() && (options.check || !options.export_folder.empty() || !options.pages.empty() ||
-                                   !options.report_file.empty()))
+    if (!options.shard.empty() && (options.check || !options.export_folder.empty() ||
+                                   !options.pages.empty() || !options.report_file.empty()))
         throw UsageError(
             "--shard: expected without --check, --export, --report and --fill, which need all rows; "
             "give them when merging");

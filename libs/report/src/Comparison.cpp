@@ -80,9 +80,9 @@ void markBest(const MetricRow& row, std::vector<GroupValue>& values) {
         return std::any_of(values.begin(), values.end(), [&](const GroupValue& b) { return beats(a, b); });
     });
     for (GroupValue& value : values) {
-        value.best = differ && value.count > 0 && std::none_of(values.begin(), values.end(), [&](const GroupValue& other) {
-                         return beats(other, value);
-                     });
+        value.best = differ && value.count > 0 &&
+                     std::none_of(values.begin(), values.end(),
+                                  [&](const GroupValue& other) { return beats(other, value); });
     }
 }
 
@@ -116,7 +116,8 @@ std::vector<ComparedMetric> compareMetrics(const std::vector<RunGroup>& groups) 
             metric.values.push_back(valueOf(row, group));
         }
         markBest(row, metric.values);
-        if (std::any_of(metric.values.begin(), metric.values.end(), [](const GroupValue& v) { return v.count > 0; })) {
+        if (std::any_of(metric.values.begin(), metric.values.end(),
+                        [](const GroupValue& v) { return v.count > 0; })) {
             compared.push_back(std::move(metric));
         }
     }

@@ -42,8 +42,10 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         }
         table.rows.push_back(std::move(row));
     }
-    PageSection section{"metrics", "Metrics",
-                        "The best of each row is marked. With several runs: their mean and its 95 % interval (Student's t). Where "
+    PageSection section{"metrics",
+                        "Metrics",
+                        "The best of each row is marked. With several runs: their mean and its 95 % interval "
+                        "(Student's t). Where "
                         "intervals overlap the difference may be chance.",
                         {table}};
     const bool same = std::all_of(groups.begin(), groups.end(),
@@ -64,8 +66,8 @@ std::vector<Layer> linesOf(const std::vector<RunGroup>& groups, PointsOf points_
         for (const RunFolder& run : groups[g].runs) {
             Points2 points = points_of(run);
             if (!points.empty()) {
-                lines.push_back(Line{first ? groups[g].name : "", std::move(points), style.colour, first ? 1.5 : 0.8,
-                                     style.dash, first ? 1.0 : 0.5});
+                lines.push_back(Line{first ? groups[g].name : "", std::move(points), style.colour,
+                                     first ? 1.5 : 0.8, style.dash, first ? 1.0 : 0.5});
                 first = false;
             }
         }
@@ -75,8 +77,8 @@ std::vector<Layer> linesOf(const std::vector<RunGroup>& groups, PointsOf points_
 
 /// A section of one panel, unless no run has anything to show.
 template <class PointsOf>
-void addCourse(Page& page, const std::vector<RunGroup>& groups, const std::string& id, const std::string& title,
-               const std::string& about, Panel panel, PointsOf points_of) {
+void addCourse(Page& page, const std::vector<RunGroup>& groups, const std::string& id,
+               const std::string& title, const std::string& about, Panel panel, PointsOf points_of) {
     std::vector<Layer> lines = linesOf(groups, points_of);
     if (lines.empty()) {
         return;
@@ -84,7 +86,8 @@ void addCourse(Page& page, const std::vector<RunGroup>& groups, const std::strin
     panel.layers.insert(panel.layers.end(), lines.begin(), lines.end());
     Figure figure;
     figure.panels = {std::move(panel)};
-    page.sections.push_back({id, title, about, {PageFigure{id, title + " of the compared runs.", figure, ""}}});
+    page.sections.push_back(
+        {id, title, about, {PageFigure{id, title + " of the compared runs.", figure, ""}}});
 }
 
 Panel coursePanel(const std::string& label, const std::string& unit, bool logarithmic) {
@@ -120,7 +123,8 @@ Points2 positionError(const RunFolder& run) {
 Points2 robotNees(const RunFolder& run) {
     std::vector<double> values;
     for (const eval::NeesStep& step : eval::robotNees(run.pairs)) {
-        values.push_back(step.squared.dimension > 0 ? step.squared.value / step.squared.dimension : std::nan(""));
+        values.push_back(step.squared.dimension > 0 ? step.squared.value / step.squared.dimension
+                                                    : std::nan(""));
     }
     const bool any = std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     return any ? pairedCourse(run, values) : Points2();
@@ -196,13 +200,17 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
     page.title = "Comparison of runs";
     page.subtitle = fmt::format("{} runs of {} configurations: {}", runs, groups.size(), names);
     page.sections.push_back(tableSection(groups));
-    addCourse(page, groups, "ways", "Ways of the robot", "In the world's frame, unaligned.", waysPanel(groups), way);
-    addCourse(page, groups, "position-error", "Position error", "The robot's distance from its true position, unaligned.",
+    addCourse(page, groups, "ways", "Ways of the robot", "In the world's frame, unaligned.",
+              waysPanel(groups), way);
+    addCourse(page, groups, "position-error", "Position error",
+              "The robot's distance from its true position, unaligned.",
               coursePanel("Position error", "m", false), positionError);
     Panel nees = coursePanel("NEES per degree of freedom", "", true);
     nees.layers.push_back(Rule{"covariances that tell the truth", 1});
-    addCourse(page, groups, "nees", "NEES of the robot", "Above 1 the estimate is surer than it may be.", nees, robotNees);
-    addCourse(page, groups, "landmark-count", "Number of landmarks", "", coursePanel("Landmarks", "", false), landmarkCount);
+    addCourse(page, groups, "nees", "NEES of the robot", "Above 1 the estimate is surer than it may be.",
+              nees, robotNees);
+    addCourse(page, groups, "landmark-count", "Number of landmarks", "", coursePanel("Landmarks", "", false),
+              landmarkCount);
     addCourse(page, groups, "step-time", "Step time", "Median within a hundredth of the run.",
               coursePanel("Time of a step", "ms", true), stepTime);
     PageTable table{"Runs", {{"folder", false}, {"estimator", false}, {"log", false}, {"seed"}}, {}};
@@ -221,7 +229,8 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
             Verbatim{group.runs.front().text("config"), "Settings of " + group.name, true});
     }
     page.sections.push_back(configurations);
-    page.footer = fmt::format("Made by slamot {} from the files of the runs.", groups.front().runs.front().text("version"));
+    page.footer = fmt::format("Made by slamot {} from the files of the runs.",
+                              groups.front().runs.front().text("version"));
     return page;
 }
 

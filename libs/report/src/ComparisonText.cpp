@@ -17,9 +17,9 @@ std::string cell(const GroupValue& value) {
     if (value.count == 0) {
         return "-";
     }
-    const std::string text =
-        std::isfinite(value.half_width) ? fmt::format("{:.3g}+-{:.2g}", value.mean, value.half_width)
-                                        : fmt::format("{:.4g}", value.mean);
+    const std::string text = std::isfinite(value.half_width)
+                                 ? fmt::format("{:.3g}+-{:.2g}", value.mean, value.half_width)
+                                 : fmt::format("{:.4g}", value.mean);
     return value.best ? text + "*" : text + " ";
 }
 

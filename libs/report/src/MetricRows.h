@@ -15,8 +15,8 @@ struct MetricRow {
     std::string group, name;
     std::string unit;  ///< empty for pure numbers
     Better better = Better::none;
-    std::string path;           ///< in summary.json, as RunFolder::number has it
-    double factor = 1;          ///< from the file's unit to `unit`
+    std::string path;               ///< in summary.json, as RunFolder::number has it
+    double factor = 1;              ///< from the file's unit to `unit`
     std::string divisor_path = {};  ///< of what it is divided by; empty for 1
 };
 

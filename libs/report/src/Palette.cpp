@@ -13,9 +13,9 @@ SeriesStyle seriesStyle(std::size_t index) {
 }
 
 std::map<std::string, std::string> darkColours() {
-    return {{"white", "#15181C"},           {colour::black, "#F0F0F0"}, {colour::text, "#E8E8E8"},
-            {colour::grey, "#A8ADB5"},      {colour::pale_grey, "#7D838C"}, {colour::frame, "#4A505A"},
-            {colour::grid, "#2A2F36"},      {colour::blue, "#3A9AD9"}};
+    return {{"white", "#15181C"},      {colour::black, "#F0F0F0"},     {colour::text, "#E8E8E8"},
+            {colour::grey, "#A8ADB5"}, {colour::pale_grey, "#7D838C"}, {colour::frame, "#4A505A"},
+            {colour::grid, "#2A2F36"}, {colour::blue, "#3A9AD9"}};
 }
 
 }  // namespace slamot::report

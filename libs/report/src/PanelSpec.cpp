@@ -196,7 +196,8 @@ PanelSpec panelSpec(const Panel& panel, std::size_t index, double left, double t
     plot["encode"]["update"]["stroke"] = constant(colour::frame);
     plot["scales"] =
         json::array({scale("x", view.x, {0, plot_width}), scale("y", view.y, {panel.height, 0})});
-    plot["axes"] = json::array({axisSpec(panel.x, view.x, false), axisSpec(panel.y, view.y, true, panel.equal_aspect)});
+    plot["axes"] =
+        json::array({axisSpec(panel.x, view.x, false), axisSpec(panel.y, view.y, true, panel.equal_aspect)});
     plot["marks"] = json::array();
     for (std::size_t i = 0; i < panel.layers.size(); ++i) {
         const std::string name = fmt::format("p{}_l{}", index, i);

@@ -76,7 +76,8 @@ CorrelationCells readCorrelation(const std::string& file) {
     }
     const std::size_t n = header[2];
     if (!begins || header[0] != 1 || n > 512 || bytes.size() != head + n * n * sizeof(float)) {
-        throw LogError(fmt::format("{}: is not a correlation matrix of version 1, expected what a run writes", file));
+        throw LogError(
+            fmt::format("{}: is not a correlation matrix of version 1, expected what a run writes", file));
     }
     CorrelationCells correlation;
     correlation.dimension = static_cast<int>(header[1]);

@@ -10,10 +10,9 @@ namespace slamot::report {
 
 const std::vector<const ReportSection*>& runSections() {
     static const std::vector<const ReportSection*> sections = {
-        &summary_section,        &map_section,         &replay_section, &robot_error_section, &track_error_section,
-        &nees_section,           &nis_section,         &mode_section,   &landmark_error_section,
-        &correlation_section,    &count_section,       &outcome_section, &time_section,       &drop_section,
-        &configuration_section};
+        &summary_section, &map_section,     &replay_section, &robot_error_section,    &track_error_section,
+        &nees_section,    &nis_section,     &mode_section,   &landmark_error_section, &correlation_section,
+        &count_section,   &outcome_section, &time_section,   &drop_section,           &configuration_section};
     return sections;
 }
 
@@ -21,10 +20,12 @@ Page runPage(const RunFolder& run) {
     Page page;
     page.title = fmt::format("{} on {}", run.text("estimator"),
                              std::filesystem::path(run.text("log")).filename().string());
-    const auto counted = [&](const char* name) { return run.number(std::string("counts/") + name).value_or(0); };
-    page.subtitle = fmt::format("{:.1f} s, {} detections, {} landmarks and {} tracks at the end; {}", run.duration(),
-                                counted("detections"), counted("landmarks"), counted("tracks_at_end"),
-                                run.text("status"));
+    const auto counted = [&](const char* name) {
+        return run.number(std::string("counts/") + name).value_or(0);
+    };
+    page.subtitle = fmt::format("{:.1f} s, {} detections, {} landmarks and {} tracks at the end; {}",
+                                run.duration(), counted("detections"), counted("landmarks"),
+                                counted("tracks_at_end"), run.text("status"));
     PageSection missing{"not-shown", "Not shown", "", {}};
     for (const ReportSection* section : runSections()) {
         const std::string why = section->why_absent(run);

@@ -68,11 +68,13 @@ std::vector<FollowedObject> followedObjects(const eval::RunRecord& run) {
             objects.push_back({track.length, {nameOf(track), {}, track.id, track.style}});
         } else if (!std::exchange(taken[track.source], true)) {
             const std::size_t n = count[track.source];
-            const std::string name = n > 1 ? fmt::format("Object {} ({} tracks)", track.source.value, n) : nameOf(track);
+            const std::string name =
+                n > 1 ? fmt::format("Object {} ({} tracks)", track.source.value, n) : nameOf(track);
             objects.push_back({length[track.source], {name, track.source, track.id, track.style}});
         }
     }
-    std::stable_sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(objects.begin(), objects.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<FollowedObject> sorted;
     for (auto& [stamps, object] : objects) {
         sorted.push_back(std::move(object));

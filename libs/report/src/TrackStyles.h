@@ -14,8 +14,8 @@ struct StyledTrack {
     SeriesStyle style;
 };
 
-/// The tracks of a run, the longest first, each with the style it has in every figure: tracks of one object share
-/// it.
+/// The tracks of a run, the longest first, each with the style it has in every figure: tracks of one object
+/// share it.
 std::vector<StyledTrack> styledTracks(const eval::RunRecord& run);
 
 /// What figures over time show as one thing: all tracks of an object that the log names, or a single track.
@@ -25,8 +25,8 @@ struct FollowedObject {
     TrackId track;  ///< where the log names no object
     SeriesStyle style;
 
-    /// Of the tracks of one stamp the one that follows the object, of several the one of highest existence; null
-    /// for none.
+    /// Of the tracks of one stamp the one that follows the object, of several the one of highest existence;
+    /// null for none.
     const TrackEstimate* among(const std::vector<TrackEstimate>& tracks) const;
 };
 

@@ -47,10 +47,11 @@ report::PageSection runSection(const Findings& findings, const Provenance& prove
         std::replace(settings.begin(), settings.end(), '\n', ' ');
         configs.rows.push_back({{{findings.analysis.label(variant.name)}, {settings}}});
     }
+    const std::string stamp = stampLine(provenance, findings);  // ends with the command
     return {"runs",
             "What was run",
             "",
-            {report::Paragraph{stampLine(provenance, findings) + "."}, configs,
+            {report::Paragraph{stamp.substr(0, stamp.rfind(": `")) + "."}, configs,
              report::Paragraph{"The command that makes this page again:"},
              report::Verbatim{provenance.command, "", true}}};
 }

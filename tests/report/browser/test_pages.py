@@ -181,10 +181,11 @@ class Pages(unittest.TestCase):
             self.assertEqual(len(found["faults"]), 3, found["faults"])
 
     def test_a_narrow_window_needs_no_sideways_scrolling(self):
-        for width in (800, 400):
-            with self.subTest(width=width), self.open(width=width) as page:
-                page.wait_for_figures()
-                self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+        for name in ("imm/report.html", "comparison.html", "study.html"):
+            for width in (800, 400):
+                with self.subTest(page=name, width=width), self.open(name, width=width) as page:
+                    page.wait_for_figures()
+                    self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
 
 
 if __name__ == "__main__":

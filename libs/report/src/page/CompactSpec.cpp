@@ -9,7 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-/// How a column of numbers is rounded: digits after the point on a linear axis, significant ones on a logarithmic one.
+/// How a column of numbers is rounded: digits after the point on a linear axis, significant ones on a
+/// logarithmic one.
 struct Rounding {
     bool significant = false;
     int digits = 6;

@@ -22,7 +22,8 @@ std::string cellTag(const std::string& tag, const std::string& attributes, const
 
 std::string html(const PageTable& table) {
     std::string out = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" +
-                      escaped(table.caption) + "\"><table><caption>" + escaped(table.caption) + "</caption>\n";
+                      escaped(table.caption) + "\"><table><caption>" + escaped(table.caption) +
+                      "</caption>\n";
     const auto attributes = [&](std::size_t column) {
         return table.columns.at(column).numeric ? " class=\"number\"" : "";
     };
@@ -57,12 +58,14 @@ std::string html(const PageFigure& figure) {
         "style=\"aspect-ratio: {1} / {2}; max-width: {3}px\"></div>\n",
         escaped(figure.alt), width, spec.at("height").get<double>(), std::round(1.1 * width));
     out +=
-        "<div class=\"below\"><details class=\"layers\"><summary>Show or hide</summary><div class=\"choices\"></div>"
+        "<div class=\"below\"><details class=\"layers\"><summary>Show or hide</summary><div "
+        "class=\"choices\"></div>"
         "</details><output class=\"readout\"></output><span class=\"tools\"></span></div>\n";
     if (!figure.caption.empty()) {
         out += "<figcaption>" + escaped(figure.caption) + "</figcaption>\n";
     }
-    return out + "<script type=\"application/json\" class=\"spec\">" + inScript(spec.dump()) + "</script>\n</figure>\n";
+    return out + "<script type=\"application/json\" class=\"spec\">" + inScript(spec.dump()) +
+           "</script>\n</figure>\n";
 }
 
 std::string html(const Paragraph& paragraph) {
@@ -72,19 +75,19 @@ std::string html(const Paragraph& paragraph) {
 /// `number` makes the element's name within the page.
 std::string html(const Verbatim& verbatim, std::size_t number) {
     const std::string id = fmt::format("text-{}", number);
-    std::string text =
-        fmt::format("<pre id=\"{}\" tabindex=\"0\">{}</pre>\n", id, escaped(verbatim.text));
+    std::string text = fmt::format("<pre id=\"{}\" tabindex=\"0\">{}</pre>\n", id, escaped(verbatim.text));
     if (verbatim.can_be_copied) {
         text += fmt::format("<button type=\"button\" data-copies=\"{}\">Copy</button>\n", id);
     }
-    return verbatim.summary.empty()
-               ? text
-               : fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(verbatim.summary), text);
+    return verbatim.summary.empty() ? text
+                                    : fmt::format("<details><summary>{}</summary>\n{}</details>\n",
+                                                  escaped(verbatim.summary), text);
 }
 
 std::string html(const ReplayView& replay) {
     std::string out = "<div class=\"replay\" data-replay>\n";
-    out += fmt::format("<canvas tabindex=\"0\" role=\"img\" aria-label=\"{}\"></canvas>\n", escaped(replay.alt));
+    out +=
+        fmt::format("<canvas tabindex=\"0\" role=\"img\" aria-label=\"{}\"></canvas>\n", escaped(replay.alt));
     out +=
         "<div class=\"time\"><button type=\"button\" class=\"play\">Play</button>"
         "<input type=\"range\" min=\"0\" max=\"1\" step=\"1\" value=\"0\" aria-label=\"Time\">"
@@ -113,7 +116,8 @@ std::string html(const ReplayView& replay) {
         }
         out += "</ul>\n";
     }
-    return out + "<script type=\"application/json\" class=\"data\">" + inScript(replay.data) + "</script>\n</div>\n";
+    return out + "<script type=\"application/json\" class=\"data\">" + inScript(replay.data) +
+           "</script>\n</div>\n";
 }
 
 std::string html(const PageSection& section, std::size_t& texts) {
@@ -158,20 +162,24 @@ constexpr const char* controls = R"html(<div class="controls">
 }  // namespace
 
 std::string toHtml(const Page& page) {
-    std::string out = "<!DOCTYPE html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n";
+    std::string out =
+        "<!DOCTYPE html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n";
     out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     out += "<title>" + escaped(page.title) + "</title>\n<style>\n";
     out += assets::style();
-    out += "</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#content\">To the content</a>\n<header>\n<h1>" +
-           escaped(page.title) + "</h1>\n<p class=\"subtitle\">" + escaped(page.subtitle) + "</p>\n";
+    out +=
+        "</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#content\">To the content</a>\n<header>\n<h1>" +
+        escaped(page.title) + "</h1>\n<p class=\"subtitle\">" + escaped(page.subtitle) + "</p>\n";
     out += controls + contents(page) + "</header>\n<main id=\"content\">\n";
     std::size_t texts = 0;
     for (const PageSection& section : page.sections) {
         out += html(section, texts);
     }
-    out += "</main>\n<footer><p>" + escaped(page.footer) + "</p>\n<details><summary>Licence of Vega</summary><pre tabindex=\"0\">" +
+    out += "</main>\n<footer><p>" + escaped(page.footer) +
+           "</p>\n<details><summary>Licence of Vega</summary><pre tabindex=\"0\">" +
            escaped(assets::vegaLicence()) + "</pre></details></footer>\n";
-    out += "<script type=\"application/json\" id=\"dark-colours\">" + nlohmann::json(darkColours()).dump() + "</script>\n";
+    out += "<script type=\"application/json\" id=\"dark-colours\">" + nlohmann::json(darkColours()).dump() +
+           "</script>\n";
     out += "<script>\n";
     out += assets::vegaBundle();
     out += "</script>\n<script>\n";
@@ -194,7 +202,8 @@ void writePictures(const Page& page, const std::string& folder) {
     for (const PageSection& section : page.sections) {
         for (const Block& block : section.blocks) {
             if (const auto* figure = std::get_if<PageFigure>(&block)) {
-                writeFigure(figure->figure, std::filesystem::path(folder) / figure->name, {false, true, true});
+                writeFigure(figure->figure, std::filesystem::path(folder) / figure->name,
+                            {false, true, true});
             }
         }
     }

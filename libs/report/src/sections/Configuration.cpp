@@ -25,8 +25,9 @@ std::vector<Block> drops(const RunFolder& run) {
 
 /// A word of a shell's command line.
 std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_-+./=:,@%") == std::string::npos;
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-+./=:,@%") == std::string::npos;
     if (plain) {
         return word;
     }
@@ -43,15 +44,17 @@ std::vector<Block> configuration(const RunFolder& run) {
         fmt::format("slamot run run.ini {} -o out --truth {} --seed {:.0f}", quoted(run.text("log")),
                     truth.empty() ? "none" : quoted(truth), run.number("seed").value_or(1));
     return {Paragraph{"Save the settings below as run.ini, then"}, Verbatim{command, "", true},
-            Verbatim{run.text("config"), "Settings that were given; `slamot config` prints all with their defaults", true},
+            Verbatim{run.text("config"),
+                     "Settings that were given; `slamot config` prints all with their defaults", true},
             Paragraph{"The estimates are the same where estimate_sha256 in summary.json is"},
             Verbatim{run.text("estimate_sha256"), "", false}};
 }
 
 }  // namespace
 
-const ReportSection drop_section{"drops", "Dropped data",
-                                 "Parts of the log that the run left out, with the reason (doc/output_files.md).", always, drops};
+const ReportSection drop_section{
+    "drops", "Dropped data", "Parts of the log that the run left out, with the reason (doc/output_files.md).",
+    always, drops};
 
 const ReportSection configuration_section{"configuration", "Configuration", "", always, configuration};
 

@@ -13,7 +13,8 @@ constexpr int robot_dimensions = 3, track_dimensions = 6;
 std::string absent(const RunFolder& run) {
     return run.correlation && run.correlation->cells.size() > 0
                ? ""
-               : "correlation.bin is not there ([output] correlation, or an estimator without joint covariance)";
+               : "correlation.bin is not there ([output] correlation, or an estimator without joint "
+                 "covariance)";
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
@@ -66,16 +67,20 @@ std::vector<Block> blocks(const RunFolder& run) {
     const std::string caption = fmt::format(
         "{} components: the robot's 3, 6 of each track, 2 of each landmark in the order of first sight.{}",
         correlation.dimension,
-        correlation.cells.rows() < correlation.dimension ? " Each cell is the strongest of those it covers." : "");
-    return {PageFigure{"correlation",
-                       fmt::format("Heat map of the correlation matrix of {} components.", correlation.dimension), figure,
-                       caption}};
+        correlation.cells.rows() < correlation.dimension ? " Each cell is the strongest of those it covers."
+                                                         : "");
+    return {
+        PageFigure{"correlation",
+                   fmt::format("Heat map of the correlation matrix of {} components.", correlation.dimension),
+                   figure, caption}};
 }
 
 }  // namespace
 
-const ReportSection correlation_section{"correlation", "Correlations",
-                                        "At the end of the run. A map holds together by its correlations: blocks near 1 move as one. The sign is left out: it says only where the robot stood.", absent,
-                                        blocks};
+const ReportSection correlation_section{
+    "correlation", "Correlations",
+    "At the end of the run. A map holds together by its correlations: blocks near 1 move as one. The sign is "
+    "left out: it says only where the robot stood.",
+    absent, blocks};
 
 }  // namespace slamot::report

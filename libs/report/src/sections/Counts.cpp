@@ -58,8 +58,8 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     const StepRow& last = run.steps.back();
     return {PageFigure{"counts",
-                       fmt::format("Number of landmarks and tracks over time; {} and {} at the end.", last.landmarks,
-                                   last.tracks),
+                       fmt::format("Number of landmarks and tracks over time; {} and {} at the end.",
+                                   last.landmarks, last.tracks),
                        figure, ""}};
 }
 

@@ -38,8 +38,8 @@ Axis runTimeAxis(const RunFolder& run) {
     return axis;
 }
 
-Panel errorPanel(const RunFolder& run, const std::string& label, const std::string& unit, const ErrorCourse& course,
-                 const std::string& colour) {
+Panel errorPanel(const RunFolder& run, const std::string& label, const std::string& unit,
+                 const ErrorCourse& course, const std::string& colour) {
     Panel panel;
     panel.x = runTimeAxis(run);
     panel.y.label = label;
@@ -77,9 +77,8 @@ std::size_t Windows::at(double seconds) const {
     return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), count_ - 1);
 }
 
-Windows windowsFor(const RunFolder& run, std::size_t count, std::size_t most) {
-    constexpr std::size_t enough = 20;
-    return Windows(run, std::clamp<std::size_t>(count / enough, 1, most));
+Windows windowsFor(const RunFolder& run, std::size_t count, std::size_t most, std::size_t each) {
+    return Windows(run, std::clamp<std::size_t>(count / each, 1, most));
 }
 
 double quantile(std::vector<double> values, double part) {
@@ -94,7 +93,8 @@ double quantile(std::vector<double> values, double part) {
 }
 
 std::vector<Band> stackedSteps(const Windows& windows, const std::vector<std::vector<double>>& rows,
-                               const std::vector<std::string>& labels, const std::vector<std::string>& colours) {
+                               const std::vector<std::string>& labels,
+                               const std::vector<std::string>& colours) {
     std::vector<double> sum(windows.count(), 0);
     std::vector<Band> bands;
     for (std::size_t k = 0; k < rows.size(); ++k) {

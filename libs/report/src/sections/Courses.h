@@ -18,12 +18,13 @@ struct ErrorCourse {
     bool empty() const { return seconds.empty(); }
 };
 
-/// Puts NaN where two entries are more than five times as far apart as they usually are: lines must not bridge gaps.
+/// Puts NaN where two entries are more than five times as far apart as they usually are: lines must not
+/// bridge gaps.
 void breakAtGaps(ErrorCourse& course);
 
 /// "Error in x" with a band of three standard deviations.
-Panel errorPanel(const RunFolder& run, const std::string& label, const std::string& unit, const ErrorCourse& course,
-                 const std::string& colour);
+Panel errorPanel(const RunFolder& run, const std::string& label, const std::string& unit,
+                 const ErrorCourse& course, const std::string& colour);
 
 /// Part of the values that lie within three standard deviations, in percent.
 double partWithinThreeSigma(const ErrorCourse& course);
@@ -47,15 +48,17 @@ class Windows {
     double length_;
 };
 
-/// At most `most` windows; fewer where they would hold less than twenty of `count` values each on average.
-Windows windowsFor(const RunFolder& run, std::size_t count, std::size_t most);
+/// At most `most` windows; fewer where they would hold less than `each` of `count` values on average.
+Windows windowsFor(const RunFolder& run, std::size_t count, std::size_t most, std::size_t each);
 
 /// A quantile by linear interpolation; sorts a copy. NaN of nothing.
 double quantile(std::vector<double> values, double part);
 
-/// The areas between the sums of one row and the next, windows as steps; `rows[k][w]` is the height of layer k.
+/// The areas between the sums of one row and the next, windows as steps; `rows[k][w]` is the height of layer
+/// k.
 std::vector<Band> stackedSteps(const Windows& windows, const std::vector<std::vector<double>>& rows,
-                               const std::vector<std::string>& labels, const std::vector<std::string>& colours);
+                               const std::vector<std::string>& labels,
+                               const std::vector<std::string>& colours);
 
 /// The true target of a track, by its source id.
 std::optional<TrueTarget> truthOf(const RunFolder& run, SourceId source, Stamp stamp);

@@ -47,8 +47,8 @@ std::map<LandmarkId, Vector2> truthOfLandmarks(const RunFolder& run, bool& by_pl
 std::string absent(const RunFolder& run) {
     return !run.truth                     ? "no truth: " + run.why_no_truth
            : run.truth->landmarks.empty() ? "truth knows no landmark"
-           : run.sights.empty()           ? "landmarks_history.csv is not there or empty ([output] landmarks_history)"
-                                          : "";
+           : run.sights.empty() ? "landmarks_history.csv is not there or empty ([output] landmarks_history)"
+                                : "";
 }
 
 /// Quantiles over the landmarks known so far, each as it was when last seen.
@@ -101,19 +101,21 @@ std::vector<Block> blocks(const RunFolder& run) {
     panel.layers = {quantiles.middle, quantiles.bound, quantiles.median};
     Figure figure;
     figure.panels = {panel};
-    std::string caption = fmt::format("{} landmarks with a truth; at the end the median error is {} m.", places.size(),
-                                      shortNumber(quantiles.median.points.back().y()));
+    std::string caption = fmt::format("{} landmarks with a truth; at the end the median error is {} m.",
+                                      places.size(), shortNumber(quantiles.median.points.back().y()));
     if (by_place) {
-        caption += fmt::format(" Landmarks without a source id are compared with the nearest true one within {} m of "
-                               "their last place.", nearest_within);
+        caption += fmt::format(
+            " Landmarks without a source id are compared with the nearest true one within {} m of "
+            "their last place.",
+            nearest_within);
     }
     return {PageFigure{"landmark_errors", "Error of the landmarks over time. " + caption, figure, caption}};
 }
 
 }  // namespace
 
-const ReportSection landmark_error_section{"landmark-errors", "Landmark errors",
-                                           "Over the landmarks known at a time, each as it was when last seen by then.", absent,
-                                           blocks};
+const ReportSection landmark_error_section{
+    "landmark-errors", "Landmark errors",
+    "Over the landmarks known at a time, each as it was when last seen by then.", absent, blocks};
 
 }  // namespace slamot::report

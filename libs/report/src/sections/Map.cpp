@@ -16,16 +16,17 @@ std::vector<Block> blocks(const RunFolder& run) {
     figure.title.clear();
     figure.panels.resize(1);  // errors have a section of their own
     const std::string alt =
-        fmt::format("Map of the run: the robot's way, {} landmarks with 3-sigma ellipses{}.", run.run.landmarks.size(),
-                    run.truth ? ", and the true ways and landmarks" : "");
+        fmt::format("Map of the run: the robot's way, {} landmarks with 3-sigma ellipses{}.",
+                    run.run.landmarks.size(), run.truth ? ", and the true ways and landmarks" : "");
     return {PageFigure{"map", alt, figure, ""}};
 }
 
 }  // namespace
 
-const ReportSection map_section{"map", "Map",
-                                "Estimates are thin full lines, what is true is the wide pale line of the same colour; "
-                                "true landmarks are grey crosses. Ellipses are at three standard deviations.",
-                                absent, blocks};
+const ReportSection map_section{
+    "map", "Map",
+    "Estimates are thin full lines, what is true is the wide pale line of the same colour; "
+    "true landmarks are grey crosses. Ellipses are at three standard deviations.",
+    absent, blocks};
 
 }  // namespace slamot::report

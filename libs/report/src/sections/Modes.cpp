@@ -16,7 +16,8 @@ std::string absent(const RunFolder& run) {
                                            : "";
 }
 
-/// Strips at the top of the panel wherever truth says which mode the object is in, where it has a mode's name.
+/// Strips at the top of the panel wherever truth says which mode the object is in, where it has a mode's
+/// name.
 void addTrueModes(Panel& panel, const RunFolder& run, const FollowedObject& object) {
     constexpr double height = 1.06;
     if (!run.truth || !object.source.valid()) {
@@ -55,12 +56,14 @@ std::vector<Block> blocks(const RunFolder& run) {
         panel.legend = LegendPlace::none;
         for (std::size_t m = 0; m < run.run.mode_names.size(); ++m) {
             const SeriesStyle style = seriesStyle(m);
-            Line line{"mode " + run.run.mode_names[m], {}, style.colour, 1.5, m < 2 ? Dash::solid : Dash::dashed};
+            Line line{
+                "mode " + run.run.mode_names[m], {}, style.colour, 1.5, m < 2 ? Dash::solid : Dash::dashed};
             for (const eval::RobotRow& row : run.run.trajectory) {
                 const auto present = run.run.tracks.find(row.stamp);
                 const TrackEstimate* track =
                     present == run.run.tracks.end() ? nullptr : object.among(present->second);
-                line.points.emplace_back(run.seconds(row.stamp), track ? track->mode_probabilities.at(m) : std::nan(""));
+                line.points.emplace_back(run.seconds(row.stamp),
+                                         track ? track->mode_probabilities.at(m) : std::nan(""));
             }
             panel.layers.push_back(std::move(line));
         }
@@ -71,13 +74,14 @@ std::vector<Block> blocks(const RunFolder& run) {
     if (objects.size() > figure.panels.size()) {
         caption = fmt::format("The {} longest followed of {} objects.", figure.panels.size(), objects.size());
     }
-    const std::string alt =
-        fmt::format("Probabilities of {} modes over time, for {} objects.", run.run.mode_names.size(), figure.panels.size());
+    const std::string alt = fmt::format("Probabilities of {} modes over time, for {} objects.",
+                                        run.run.mode_names.size(), figure.panels.size());
     return {PageFigure{"modes", alt, figure, caption}};
 }
 
 }  // namespace
 
-const ReportSection mode_section{"modes", "Mode probabilities", "How each track is taken to move.", absent, blocks};
+const ReportSection mode_section{"modes", "Mode probabilities", "How each track is taken to move.", absent,
+                                 blocks};
 
 }  // namespace slamot::report

@@ -28,9 +28,11 @@ Panel neesPanel(const RunFolder& run, const std::string& title, int degrees, Lin
     }
     panel.y.min = std::max(least, 0.05 * band.low);  // single lucky steps would stretch the axis without end
     const double end = run.duration();
-    panel.layers.push_back(Band{fmt::format("{:.0f} % of χ² with {} degrees of freedom", 100 * probability, degrees),
-                                {{0, band.low, band.high}, {end, band.low, band.high}},
-                                colour::green, 0.2});
+    panel.layers.push_back(
+        Band{fmt::format("{:.0f} % of χ² with {} degrees of freedom", 100 * probability, degrees),
+             {{0, band.low, band.high}, {end, band.low, band.high}},
+             colour::green,
+             0.2});
     panel.layers.push_back(Rule{"its mean", static_cast<double>(degrees), false, colour::green});
     panel.layers.push_back(std::move(line));
     return panel;
@@ -48,7 +50,8 @@ Line lineOf(const RunFolder& run, const eval::NeesSeries& series, const std::str
             const std::string& colour) {
     ErrorCourse course;
     for (const eval::NeesStep& step : series) {
-        course.add(run.seconds(step.stamp), step.squared.dimension > 0 ? step.squared.value : std::nan(""), 0);
+        course.add(run.seconds(step.stamp), step.squared.dimension > 0 ? step.squared.value : std::nan(""),
+                   0);
     }
     breakAtGaps(course);
     return {label, report::series(course.seconds, course.error), colour, 1.2};
@@ -78,7 +81,8 @@ std::string absent(const RunFolder& run) {
 std::vector<Block> blocks(const RunFolder& run) {
     const eval::NeesSeries robot = eval::robotNees(run.pairs);
     Figure figure;
-    figure.panels.push_back(neesPanel(run, "Robot", mostDegrees(robot), lineOf(run, robot, "Robot", colour::blue)));
+    figure.panels.push_back(
+        neesPanel(run, "Robot", mostDegrees(robot), lineOf(run, robot, "Robot", colour::blue)));
     for (const FollowedObject& object : followedObjects(run.run)) {
         const eval::NeesSeries series = objectNees(run, object);
         if (series.empty() || figure.panels.size() > most_objects_shown) {
@@ -91,18 +95,21 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     std::string caption;
     if (const auto summary = eval::summariseNees(robot, bandProbability(run))) {
-        caption = fmt::format("Robot: {} on average of {:.3g} degrees of freedom; {:.1f} % of {} steps in the band.",
-                              shortNumber(summary->average), summary->mean_dimension, 100 * summary->inside, summary->steps);
+        caption = fmt::format(
+            "Robot: {} on average of {:.3g} degrees of freedom; {:.1f} % of {} steps in the band.",
+            shortNumber(summary->average), summary->mean_dimension, 100 * summary->inside, summary->steps);
     }
     return {PageFigure{"nees", "NEES over time with chi-square bands. " + caption, figure, caption}};
 }
 
 }  // namespace
 
-const ReportSection nees_section{"nees", "NEES",
-                                 "Do the covariances tell the truth? The squared error weighted by its inverse covariance: above the band the estimate is surer "
-                                 "than it may be, below it is too careful. Steps of one run depend on each other: "
-                                 "one run leaves the band for a while by chance; a study over many seeds decides.",
-                                 absent, blocks};
+const ReportSection nees_section{
+    "nees", "NEES",
+    "Do the covariances tell the truth? The squared error weighted by its inverse covariance: above the band "
+    "the estimate is surer "
+    "than it may be, below it is too careful. Steps of one run depend on each other: "
+    "one run leaves the band for a while by chance; a study over many seeds decides.",
+    absent, blocks};
 
 }  // namespace slamot::report

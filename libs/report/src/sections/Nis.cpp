@@ -30,14 +30,15 @@ std::map<Group, Rows> groupsOf(const RunFolder& run) {
 }
 
 /// The mean NIS of each window, and the band it should lie in.
-void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows, double probability) {
+void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows,
+              double probability) {
     Line mean{"mean over a window", {}, colour::black, 1.8};
     Band band{fmt::format("{:.0f} % band of that mean", 100 * probability), {}, colour::green, 0.45};
     for (std::size_t w = 0; w < windows.count(); ++w) {
         const auto n = static_cast<double>(values[w].size());
         const double sum = std::accumulate(values[w].begin(), values[w].end(), 0.0);
-        const eval::Band b = n > 0 ? eval::chiSquareBand(probability, degrees * n, n)
-                                   : eval::Band{std::nan(""), std::nan("")};
+        const eval::Band b =
+            n > 0 ? eval::chiSquareBand(probability, degrees * n, n) : eval::Band{std::nan(""), std::nan("")};
         mean.points.emplace_back(windows.middle(w), n > 0 ? sum / n : std::nan(""));
         for (const double end : {windows.begin(w), windows.begin(w + 1)}) {
             band.rows.push_back({end, b.low, b.high});
@@ -47,9 +48,10 @@ void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, cons
     panel.layers.push_back(std::move(mean));
 }
 
-/// Of very many innovations the middle 90 % as an area, beside where they should lie, and only the outermost as
-/// points.
-void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows, Points used) {
+/// Of very many innovations the middle 90 % as an area, beside where they should lie, and only the outermost
+/// as points.
+void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows,
+             Points used) {
     Band middle{"5 % to 95 % of the innovations", {}, colour::sky, 0.35};
     std::vector<double> low(windows.count()), high(windows.count());
     for (std::size_t w = 0; w < windows.count(); ++w) {
@@ -71,7 +73,7 @@ void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const
 Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     constexpr std::size_t many = 5000;
     const double probability = bandProbability(run);
-    const Windows windows = windowsFor(run, rows.size(), most_windows);
+    const Windows windows = windowsFor(run, rows.size(), most_windows, 20);
     std::vector<std::vector<double>> values(windows.count());
     Points used{"innovations used", {}, colour::sky, Symbol::dot, 3, 0.8};
     Points rejected{"rejected or down-weighted", {}, colour::vermillion, Symbol::times, 5, 0.8};
@@ -85,9 +87,10 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
         values[windows.of(row->stamp)].push_back(nis);
     }
     Panel panel;
-    panel.title = fmt::format("{}: {}, {:.1f} % of {} within {:.2g} to {:.2g}",
-                              group.first.empty() ? "(no label)" : group.first, toText(group.second),
-                              100 * inside / static_cast<double>(rows.size()), rows.size(), single.low, single.high);
+    panel.title =
+        fmt::format("{}: {}, {:.1f} % of {} within {:.2g} to {:.2g}",
+                    group.first.empty() ? "(no label)" : group.first, toText(group.second),
+                    100 * inside / static_cast<double>(rows.size()), rows.size(), single.low, single.high);
     panel.x = runTimeAxis(run);
     panel.y.label = "NIS";
     panel.y.logarithmic = true;
@@ -126,10 +129,12 @@ std::vector<Block> blocks(const RunFolder& run) {
 
 }  // namespace
 
-const ReportSection nis_section{"nis", "NIS",
-                                "Do the innovations fit their covariances? The one test of consistency that needs no truth. Each innovation should be of chi-square law "
-                                "with two degrees of freedom (mean 2); the black line is the mean over a window of time, the "
-                                "green band where it should lie.",
-                                absent, blocks};
+const ReportSection nis_section{
+    "nis", "NIS",
+    "Do the innovations fit their covariances? The one test of consistency that needs no truth. Each "
+    "innovation should be of chi-square law "
+    "with two degrees of freedom (mean 2); the black line is the mean over a window of time, the "
+    "green band where it should lie.",
+    absent, blocks};
 
 }  // namespace slamot::report

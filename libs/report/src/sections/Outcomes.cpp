@@ -16,7 +16,7 @@ std::string absent(const RunFolder& run) {
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
-    const std::array outcomes{Outcome::updated,  Outcome::inflated,  Outcome::initiated,
+    const std::array outcomes{Outcome::updated,   Outcome::inflated, Outcome::initiated,
                               Outcome::tentative, Outcome::rejected, Outcome::ignored};
     const std::vector<std::string> colours = {colour::sky,    colour::orange,     colour::blue,
                                               colour::purple, colour::vermillion, colour::grey};
@@ -28,7 +28,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     for (const eval::InnovationRow& row : run.run.innovations) {
         stamps.insert(row.stamp);
     }
-    const Windows windows = windowsFor(run, stamps.size(), most_windows);
+    const Windows windows = windowsFor(run, stamps.size(), most_windows, 4);
     std::vector<double> scans(windows.count(), 0);
     for (const Stamp stamp : stamps) {
         scans[windows.of(stamp)] += 1;
@@ -53,15 +53,18 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     Figure figure;
     figure.panels = {panel};
-    return {PageFigure{"outcomes", "Detections at a time, mean over windows, by what became of them.", figure, ""}};
+    return {PageFigure{"outcomes", "Detections at a time, mean over windows, by what became of them.", figure,
+                       ""}};
 }
 
 }  // namespace
 
-const ReportSection outcome_section{"outcomes", "Association outcomes",
-                                    "How many detections there are at one stamp, mean over a window, by what became of them. Updated: used at full weight; inflated: used with enlarged noise; initiated: started a landmark or a "
-                                    "track; tentative: of something not known to exist yet; rejected: outside the gate; "
-                                    "ignored: of no use to the estimator.",
-                                    absent, blocks};
+const ReportSection outcome_section{
+    "outcomes", "Association outcomes",
+    "How many detections there are at one stamp, mean over a window, by what became of them. Updated: used "
+    "at full weight; inflated: used with enlarged noise; initiated: started a landmark or a "
+    "track; tentative: of something not known to exist yet; rejected: outside the gate; "
+    "ignored: of no use to the estimator.",
+    absent, blocks};
 
 }  // namespace slamot::report

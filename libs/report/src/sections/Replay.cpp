@@ -15,7 +15,8 @@ std::string absent(const RunFolder& run) {
 std::vector<Block> blocks(const RunFolder& run) {
     ReplayView replay;
     replay.alt = fmt::format(
-        "Replay of {:.1f} s: the robot and its field of view, landmarks as they appear, tracks with their modes.",
+        "Replay of {:.1f} s: the robot and its field of view, landmarks as they appear, tracks with their "
+        "modes.",
         run.duration());
     replay.data = replayData(run);
     for (std::size_t m = 0; m < run.run.mode_names.size(); ++m) {
@@ -26,10 +27,11 @@ std::vector<Block> blocks(const RunFolder& run) {
 
 }  // namespace
 
-const ReportSection replay_section{
-    "replay", "Replay",
-    "Drag the slider, or choose the map and use the arrow keys, Page up and down, Home, End and space; + and - enlarge, 0 "
-    "shows all. Each landmark is drawn as it was when last seen; one that is not in the map at the end, until then.",
-    absent, blocks};
+const ReportSection replay_section{"replay", "Replay",
+                                   "Drag the slider, or choose the map and use the arrow keys, Page up and "
+                                   "down, Home, End and space; + and - enlarge, 0 "
+                                   "shows all. Each landmark is drawn as it was when last seen; one that is "
+                                   "not in the map at the end, until then.",
+                                   absent, blocks};
 
 }  // namespace slamot::report

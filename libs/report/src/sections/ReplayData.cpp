@@ -28,8 +28,8 @@ struct Axes {
 Axes axesOf(const Matrix2& covariance) {
     const Eigen::SelfAdjointEigenSolver<Matrix2> eigen(covariance);
     const Vector2 along = eigen.eigenvectors().col(1);
-    return {3 * std::sqrt(std::max(0.0, eigen.eigenvalues()(1))), 3 * std::sqrt(std::max(0.0, eigen.eigenvalues()(0))),
-            std::atan2(along.y(), along.x())};
+    return {3 * std::sqrt(std::max(0.0, eigen.eigenvalues()(1))),
+            3 * std::sqrt(std::max(0.0, eigen.eigenvalues()(0))), std::atan2(along.y(), along.x())};
 }
 
 /// Columns of numbers for JavaScript, with as many digits as can be seen after zooming in twenty times.
@@ -220,11 +220,13 @@ class Writer {
             last[places[i].id] = i;
         }
         Columns columns(digits_);
-        json result = {{"frame", json::array()}, {"index", json::array()}, {"x", json::array()}, {"y", json::array()},
-                       {"a", json::array()},     {"b", json::array()},     {"angle", json::array()}};
+        json result = {{"frame", json::array()}, {"index", json::array()}, {"x", json::array()},
+                       {"y", json::array()},     {"a", json::array()},     {"b", json::array()},
+                       {"angle", json::array()}};
         for (std::size_t i = 0; i < places.size(); ++i) {
             const LandmarkSight& place = places[i];
-            const std::size_t index = landmark_index_.try_emplace(place.id, landmark_index_.size()).first->second;
+            const std::size_t index =
+                landmark_index_.try_emplace(place.id, landmark_index_.size()).first->second;
             const auto frame = static_cast<std::int64_t>(frameOf(place.stamp));
             columns.whole("frame", frame);
             columns.whole("index", static_cast<std::int64_t>(index));
@@ -355,8 +357,8 @@ std::vector<LandmarkSight> visibleChanges(const std::vector<LandmarkSight>& sigh
         const LandmarkSight& sight = sights[i];
         const LandmarkSight*& before = kept[sight.id];
         const bool seen = !before || last[sight.id] == i || (sight.mean - before->mean).norm() > pixel ||
-                          std::abs(3 * std::sqrt(sight.covariance.trace()) - 3 * std::sqrt(before->covariance.trace())) >
-                              pixel;
+                          std::abs(3 * std::sqrt(sight.covariance.trace()) -
+                                   3 * std::sqrt(before->covariance.trace())) > pixel;
         if (seen) {
             before = &sight;
             changes.push_back(sight);

@@ -11,7 +11,7 @@ namespace slamot::report {
 namespace {
 
 std::string absent(const RunFolder& run) {
-    return !run.truth ? "no truth: " + run.why_no_truth
+    return !run.truth          ? "no truth: " + run.why_no_truth
            : run.pairs.empty() ? "truth knows the robot at none of the run's stamps"
                                : "";
 }
@@ -35,31 +35,35 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     Figure figure;
     figure.shared_legend = true;
-    figure.panels = {errorPanel(run, "Error in x", "m", x, colour::blue), errorPanel(run, "Error in y", "m", y, colour::blue)};
+    figure.panels = {errorPanel(run, "Error in x", "m", x, colour::blue),
+                     errorPanel(run, "Error in y", "m", y, colour::blue)};
     if (heading_known) {
         figure.panels.push_back(errorPanel(run, "Error of heading", "°", heading, colour::blue));
     }
     for (Panel& panel : figure.panels) {
         panel.legend = LegendPlace::none;
     }
-    std::string parts = fmt::format("x {:.1f} %, y {:.1f} %", partWithinThreeSigma(x), partWithinThreeSigma(y));
+    std::string parts =
+        fmt::format("x {:.1f} %, y {:.1f} %", partWithinThreeSigma(x), partWithinThreeSigma(y));
     if (heading_known) {
         parts += fmt::format(", heading {:.1f} %", partWithinThreeSigma(heading));
     }
-    std::string caption =
-        fmt::format("Within three standard deviations: {}; 99.7 % where errors are Gaussian of that size.", parts);
+    std::string caption = fmt::format(
+        "Within three standard deviations: {}; 99.7 % where errors are Gaussian of that size.", parts);
     if (run.truth->position_std > 0) {
         caption += fmt::format(" Truth itself has a standard deviation of {} m, which the bounds leave out.",
                                run.truth->position_std);
     }
-    return {PageFigure{"robot_errors", "The robot's errors in x, y and heading over time. " + caption, figure, caption}};
+    return {PageFigure{"robot_errors", "The robot's errors in x, y and heading over time. " + caption, figure,
+                       caption}};
 }
 
 }  // namespace
 
-const ReportSection robot_error_section{"robot-errors", "Robot errors",
-                                        "Estimate minus truth, in the world's axes, unaligned, with a band of three standard "
-                                        "deviations of the estimate.",
-                                        absent, blocks};
+const ReportSection robot_error_section{
+    "robot-errors", "Robot errors",
+    "Estimate minus truth, in the world's axes, unaligned, with a band of three standard "
+    "deviations of the estimate.",
+    absent, blocks};
 
 }  // namespace slamot::report

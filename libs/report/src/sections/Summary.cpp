@@ -73,10 +73,10 @@ std::vector<Block> blocks(const RunFolder& run) {
 
 }  // namespace
 
-const ReportSection summary_section{
-    "summary", "Summary",
-    "NEES per degree of freedom is 1 where covariances tell the truth, more where they promise too much. Metrics are "
-    "defined in doc/metrics.md.",
-    absent, blocks};
+const ReportSection summary_section{"summary", "Summary",
+                                    "NEES per degree of freedom is 1 where covariances tell the truth, more "
+                                    "where they promise too much. Metrics are "
+                                    "defined in doc/metrics.md.",
+                                    absent, blocks};
 
 }  // namespace slamot::report

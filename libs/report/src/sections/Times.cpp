@@ -19,10 +19,10 @@ std::string absent(const RunFolder& run) {
 PageTable timeTable(const RunFolder& run) {
     PageTable table{"Wall time", {{"", false}, {"value"}}, {}};
     const std::tuple<const char*, const char*, const char*> rows[] = {
-        {"whole run", "time/wall_s", "s"},        {"of it prediction", "time/predict_s", "s"},
-        {"of it detection", "time/detect_s", "s"}, {"of it update", "time/update_s", "s"},
-        {"step, mean", "time/step_ms/mean", "ms"}, {"step, median", "time/step_ms/p50", "ms"},
-        {"step, 95 %", "time/step_ms/p95", "ms"},  {"step, 99 %", "time/step_ms/p99", "ms"},
+        {"whole run", "time/wall_s", "s"},          {"of it prediction", "time/predict_s", "s"},
+        {"of it detection", "time/detect_s", "s"},  {"of it update", "time/update_s", "s"},
+        {"step, mean", "time/step_ms/mean", "ms"},  {"step, median", "time/step_ms/p50", "ms"},
+        {"step, 95 %", "time/step_ms/p95", "ms"},   {"step, 99 %", "time/step_ms/p99", "ms"},
         {"step, longest", "time/step_ms/max", "ms"}};
     for (const auto& [name, path, unit] : rows) {
         if (const auto value = run.number(path)) {
@@ -33,8 +33,9 @@ PageTable timeTable(const RunFolder& run) {
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
-    const auto count = std::count_if(run.steps.begin(), run.steps.end(), [](const StepRow& s) { return s.update_ms > 0; });
-    const Windows windows = windowsFor(run, static_cast<std::size_t>(count), most_windows);
+    const auto count =
+        std::count_if(run.steps.begin(), run.steps.end(), [](const StepRow& s) { return s.update_ms > 0; });
+    const Windows windows = windowsFor(run, static_cast<std::size_t>(count), most_windows, 8);
     std::vector<std::vector<double>> steps(windows.count());
     double pending = 0;
     for (const StepRow& row : run.steps) {
@@ -60,14 +61,16 @@ std::vector<Block> blocks(const RunFolder& run) {
     panel.layers = {range, longest, median};
     Figure figure;
     figure.panels = {panel};
-    return {PageFigure{"step_time", "Wall time of a step over the run: median, range and longest within windows.", figure, ""},
-            timeTable(run)};
+    return {
+        PageFigure{"step_time", "Wall time of a step over the run: median, range and longest within windows.",
+                   figure, ""},
+        timeTable(run)};
 }
 
 }  // namespace
 
-const ReportSection time_section{"step-time", "Step time",
-                                 "A step is everything from one set of detections to the next, prediction included.", absent,
-                                 blocks};
+const ReportSection time_section{
+    "step-time", "Step time",
+    "A step is everything from one set of detections to the next, prediction included.", absent, blocks};
 
 }  // namespace slamot::report

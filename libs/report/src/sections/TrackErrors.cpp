@@ -11,15 +11,19 @@
 namespace slamot::report {
 namespace {
 
-/// Errors in x, y and in the velocities along them, at every stamp of the run; NaN where the object has no track.
+/// Errors in x, y and in the velocities along them, at every stamp of the run; NaN where the object has no
+/// track.
 std::array<ErrorCourse, 4> coursesOf(const RunFolder& run, const FollowedObject& object) {
     std::array<ErrorCourse, 4> courses;
     for (const eval::RobotRow& row : run.run.trajectory) {
         const auto present = run.run.tracks.find(row.stamp);
-        const TrackEstimate* estimate = present == run.run.tracks.end() ? nullptr : object.among(present->second);
+        const TrackEstimate* estimate =
+            present == run.run.tracks.end() ? nullptr : object.among(present->second);
         const auto truth = estimate ? truthOf(run, object.source, row.stamp) : std::nullopt;
         for (int k = 0; k < 4; ++k) {
-            const double true_value = !truth ? std::nan("") : k < 2 ? truth->position(k) : truth->velocity(k - 2);
+            const double true_value = !truth  ? std::nan("")
+                                      : k < 2 ? truth->position(k)
+                                              : truth->velocity(k - 2);
             courses[static_cast<std::size_t>(k)].add(
                 run.seconds(row.stamp), estimate ? estimate->mean(k) - true_value : std::nan(""),
                 estimate ? std::sqrt(std::max(0.0, estimate->covariance(k, k))) : std::nan(""));
@@ -30,17 +34,18 @@ std::array<ErrorCourse, 4> coursesOf(const RunFolder& run, const FollowedObject&
 
 std::vector<FollowedObject> objectsWithTruth(const RunFolder& run) {
     std::vector<FollowedObject> objects = followedObjects(run.run);
-    objects.erase(std::remove_if(objects.begin(), objects.end(),
-                                 [&](const FollowedObject& o) { return run.truth->targets.count(o.source) == 0; }),
-                  objects.end());
+    objects.erase(
+        std::remove_if(objects.begin(), objects.end(),
+                       [&](const FollowedObject& o) { return run.truth->targets.count(o.source) == 0; }),
+        objects.end());
     return objects;
 }
 
 std::string absent(const RunFolder& run) {
-    return !run.truth                       ? "no truth: " + run.why_no_truth
-           : run.run.tracks.empty()         ? "the run has no track"
+    return !run.truth                      ? "no truth: " + run.why_no_truth
+           : run.run.tracks.empty()        ? "the run has no track"
            : objectsWithTruth(run).empty() ? "no track has a source id with a truth"
-                                            : "";
+                                           : "";
 }
 
 PageFigure figureOf(const RunFolder& run, const FollowedObject& object) {
@@ -79,15 +84,16 @@ std::vector<Block> blocks(const RunFolder& run) {
         }
     }
     if (objects.size() > result.size()) {
-        result.push_back(Paragraph{fmt::format("The {} longest followed of {} objects.", result.size(), objects.size())});
+        result.push_back(
+            Paragraph{fmt::format("The {} longest followed of {} objects.", result.size(), objects.size())});
     }
     return result;
 }
 
 }  // namespace
 
-const ReportSection track_error_section{"track-errors", "Track errors",
-                                        "Estimate minus truth in the world's axes, with a band of three standard deviations.",
-                                        absent, blocks};
+const ReportSection track_error_section{
+    "track-errors", "Track errors",
+    "Estimate minus truth in the world's axes, with a band of three standard deviations.", absent, blocks};
 
 }  // namespace slamot::report

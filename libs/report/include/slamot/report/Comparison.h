@@ -14,12 +14,12 @@ struct RunGroup {
     std::vector<RunFolder> runs;
 };
 
-/// Groups in the order of their first run. A single run is called by its folder, several by what their folders'
-/// names begin with.
+/// Groups in the order of their first run. A single run is called by its folder, several by what their
+/// folders' names begin with.
 std::vector<RunGroup> groupRuns(std::vector<RunFolder> runs);
 
-/// A metric of a group: the mean over its runs that have it, and half the width of its 95 % interval (Student's t;
-/// NaN for a single run).
+/// A metric of a group: the mean over its runs that have it, and half the width of its 95 % interval
+/// (Student's t; NaN for a single run).
 struct GroupValue {
     std::size_t count = 0;
     double mean = 0, half_width = 0;

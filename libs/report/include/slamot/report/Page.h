@@ -1,6 +1,6 @@
 #pragma once
-// A self-contained HTML page: text, tables, interactive figures. One shell for runs, comparisons and studies; it
-// needs no network and no other file.
+// A self-contained HTML page: text, tables, interactive figures. One shell for runs, comparisons and studies;
+// it needs no network and no other file.
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,7 +26,7 @@ struct TableCell {
 
 struct TableRow {
     std::vector<TableCell> cells;
-    bool group = false;  ///< a heading within the table: its first cell alone
+    bool group = false;   ///< a heading within the table: its first cell alone
     bool strong = false;  ///< stands out: a sum, a ranking's result
 };
 

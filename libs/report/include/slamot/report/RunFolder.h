@@ -57,9 +57,9 @@ struct RunFolder {
     std::string text(const std::string& name) const;
 };
 
-/// `truth_folder`: where truth is instead of where summary.json says the run had it; "none" for no truth. A truth
-/// that is no longer there is told in `why_no_truth`. Throws LogError naming file and line where a file is broken
-/// or no run has left `folder`.
+/// `truth_folder`: where truth is instead of where summary.json says the run had it; "none" for no truth. A
+/// truth that is no longer there is told in `why_no_truth`. Throws LogError naming file and line where a file
+/// is broken or no run has left `folder`.
 RunFolder readRunFolder(const std::string& folder, const std::string& truth_folder = {});
 
 }  // namespace slamot::report

@@ -5,8 +5,8 @@
 
 namespace slamot::report {
 
-/// Every section that has something to show, and a last one that says what is not shown and why. A function of the
-/// run's files alone.
+/// Every section that has something to show, and a last one that says what is not shown and why. A function
+/// of the run's files alone.
 Page runPage(const RunFolder& run);
 
 /// Reads the folder again and writes its report.html; throws LogError and ReportError.
