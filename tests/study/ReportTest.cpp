@@ -26,7 +26,8 @@ class StudyReport : public testing::Test {
     std::string page(const CheckReport* checks = nullptr) const {
         const auto rows = rowsOf("paper1", "classic", {0.25, 0.25});
         writeReport(folder_.path("page.html"), {study_, analysis_, rows}, provenance, checks);
-        return folder_.read("page.html");
+        const std::string html = folder_.read("page.html");
+        return html.substr(0, html.find("<script>\n"));  // without Vega: failures stay readable
     }
 
     const StudyFile study_ = studyOf(analysis_text);
@@ -38,7 +39,7 @@ TEST_F(StudyReport, hasTheTablesOfTheStudyFileAsText) {
     const std::string html = page();
     EXPECT_THAT(html, HasSubstr("<title>Study demo</title>"));
     EXPECT_THAT(html, HasSubstr("<caption>Errors of &lt;all&gt;</caption>"));
-    EXPECT_THAT(html, HasSubstr("<th scope=\"row\">paper1</th><td>classic</td>"));
+    EXPECT_THAT(html, HasSubstr("<th scope=\"row\">classic</th><td class=\"number\">2</td>"));
     EXPECT_THAT(html, HasSubstr("0.250"));
     EXPECT_THAT(html, Not(HasSubstr("id=\"checks\"")));
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "Command.h"
+#include "LiveWindow.h"
 #include "LogGuard.h"
 #include "Progress.h"
 #include "slamot/report/FigureWriter.h"
@@ -18,6 +19,7 @@ struct Options {
     std::vector<std::string> set;
     std::string seed;
     int threads = 1;
+    bool live = false;
 };
 
 /// `--truth`: a folder, `none`, or by default the folder beside the log where there is one.
@@ -98,6 +100,11 @@ int runJob(const Options& options, const Verbosity& verbosity) {
     }
 
     const PluginRegistry registry = PluginRegistry::discover();
+    std::unique_ptr<LiveWindow> window;
+    if (options.live) {
+        window = std::make_unique<LiveWindow>("slamot: " + options.log, interrupted());
+        request.sinks.push_back(window.get());
+    }
     run::JobResult result;
     {
         Progress progress("running", verbosity.quiet);
@@ -108,6 +115,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
     if (result.writes_figure) writeOverview(result, request.truth, options);
     if (result.writes_report) writeReport(options);
     if (!verbosity.quiet) printSummary(result, options, verbosity);
+    if (window) window->waitUntilClosed();
     switch (result.status) {
         case run::RunStatus::complete: return exit_success;
         case run::RunStatus::stopped:
@@ -135,6 +143,8 @@ void addRun(CLI::App& app, Action& chosen) {
     command->add_option("--threads", options->threads, "Threads; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    command->add_flag("--live", options->live,
+                      "A window that follows the run: space pauses, s steps, + - speed, f follow, q closes");
     command->callback([&chosen, options] { chosen = [options](const Verbosity& v) { return runJob(*options, v); }; });
 }
 

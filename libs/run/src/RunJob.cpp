@@ -18,6 +18,7 @@ JobResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     input.progress = request.progress;
     input.stop = request.stop;
     input.sinks = folder.sinks();
+    input.sinks.insert(input.sinks.end(), request.sinks.begin(), request.sinks.end());
 
     JobResult result{runSource(assembled, input), {}, false, false};
     result.writes_figure = assembled.config.output.figure && result.started;

@@ -17,6 +17,7 @@ struct RunRequest {
     int threads = 1;
     std::function<void(double)> progress;       ///< as RunInput's
     const std::atomic<bool>* stop = nullptr;  ///< as RunInput's
+    std::vector<Sink*> sinks;                 ///< beside those of the folder
 };
 
 struct JobResult : RunResult {

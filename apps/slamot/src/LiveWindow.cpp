@@ -1,0 +1,312 @@
+#include "LiveWindow.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <mrpt/gui/CDisplayWindow3D.h>
+#include <mrpt/gui/keycodes.h>
+#include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/stock_objects.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include "Command.h"
+
+namespace slamot::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using mrpt::img::TColor;
+
+// Okabe and Ito's colours, as in figures.
+const TColor robot_colour(0, 114, 178), landmark_colour(0, 158, 115), sight_colour(86, 180, 233);
+const std::array track_colours{TColor(213, 94, 0), TColor(204, 121, 167), TColor(230, 159, 0)};
+
+/// Times real time; the last is as fast as can be.
+constexpr std::array<double, 8> speeds{1, 2, 5, 10, 20, 50, 100, 0};
+const mrpt::opengl::TFontParams dark_text = [] {
+    mrpt::opengl::TFontParams font;
+    font.color = {0.1f, 0.1f, 0.1f};
+    return font;
+}();
+
+constexpr std::chrono::milliseconds frame_time{40}, key_time{10};
+
+/// MRPT's window waits in vain where there is no display, so it is asked for first. The X library is loaded
+/// by name: the program needs it for nothing else. The connection stays: a virtual X server starts anew when
+/// its last client leaves, and would refuse the window meanwhile.
+bool hasDisplay() {
+    void* library = dlopen("libX11.so.6", RTLD_LAZY);
+    const auto open =
+        library ? reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay")) : nullptr;
+    return open && open(nullptr);
+}
+
+mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const TColor& colour) {
+    auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
+    ellipse->setQuantiles(3.0f);
+    ellipse->set2DsegmentsCount(30);
+    ellipse->setColor_u8(colour);
+    return ellipse;
+}
+
+void place(mrpt::opengl::CEllipsoid2D& ellipse, const Vector2& mean, const Matrix2& covariance) {
+    mrpt::math::CMatrixDouble22 c;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) c(i, j) = covariance(i, j);
+    ellipse.setCovMatrix(c);
+    ellipse.setLocation(mean.x(), mean.y(), 0);
+}
+
+mrpt::opengl::CSetOfLines::Ptr makeLines(const TColor& colour, float width) {
+    auto lines = mrpt::opengl::CSetOfLines::Create();
+    lines->setColor_u8(colour);
+    lines->setLineWidth(width);
+    return lines;
+}
+
+void extend(mrpt::opengl::CSetOfLines& way, const Vector2& p) {
+    if (way.empty())
+        way.appendLine(p.x(), p.y(), 0.0, p.x(), p.y(), 0.0);
+    else
+        way.appendLineStrip(p.x(), p.y(), 0.0);
+}
+
+}  // namespace
+
+struct LiveWindow::Impl {
+    struct Track {
+        mrpt::opengl::CSetOfLines::Ptr way;
+        mrpt::opengl::CEllipsoid2D::Ptr ellipse;
+    };
+
+    const std::atomic<bool>& stop;
+    std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed by key
+    mrpt::opengl::CSetOfObjects::Ptr world = mrpt::opengl::CSetOfObjects::Create();
+    mrpt::opengl::CSetOfObjects::Ptr robot = mrpt::opengl::stock_objects::RobotPioneer();
+    mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(robot_colour);
+    mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(robot_colour, 2.5f),
+                                   sight = makeLines(sight_colour, 1.0f);
+    std::map<TrackId, Track> tracks;
+    std::map<LandmarkId, mrpt::opengl::CEllipsoid2D::Ptr> landmarks;
+    std::map<LandmarkId, LandmarkEstimate> changed;  ///< since the last frame
+    std::size_t speed = 3;
+    bool paused = false, single_step = false, follow = true, was_placed = false;
+    Stamp start, paced_from;  ///< of the run; where the present speed began
+    Clock::time_point paced_at = Clock::now(), last_frame{};
+    double reach = 10;  ///< how far one sees around the robot [m]
+
+    Impl(const std::string& title, const std::atomic<bool>& stop_flag)
+        : stop(stop_flag), window(std::make_unique<mrpt::gui::CDisplayWindow3D>(title, 1000, 800)) {
+        world->insert(robot_way);
+        world->insert(sight);
+        world->insert(robot_ellipse);
+        world->insert(robot);
+        auto& scene = window->get3DSceneAndLock();
+        scene->insert(world);
+        scene->getViewport()->setCustomBackgroundColor({0.96f, 0.96f, 0.96f});
+        window->unlockAccess3DScene();
+        window->setCameraProjective(false);
+        window->setCameraElevationDeg(90);
+        window->setCameraAzimuthDeg(-90);
+    }
+
+    bool open() const { return window && window->isOpen(); }
+
+    void pace(Stamp now) {
+        paced_from = now;
+        paced_at = Clock::now();
+    }
+
+    /// MRPT tells which key it was, so letters are capital and + is = on keyboards that have them on one key.
+    /// Whether there was any.
+    bool takeKeys(Stamp now) {
+        bool any = false;
+        while (open() && window->keyHit()) {
+            const int key = window->getPushedKey();
+            any = true;
+            const bool faster = key == '+' || key == '=' || key == mrpt::gui::MRPTK_NUMPAD_ADD;
+            const bool slower = key == '-' || key == mrpt::gui::MRPTK_NUMPAD_SUBTRACT;
+            if (faster && speed + 1 < speeds.size()) ++speed;
+            if (slower && speed > 0) --speed;
+            if (key == ' ') paused = !paused;
+            if (key == 'S') paused = single_step = true;
+            if (key == 'F') follow = !follow;
+            if (key == 'Q') window.reset();
+            if (faster || slower || key == ' ') pace(now);
+        }
+        return any;
+    }
+
+    /// Holds the run back to the chosen speed, and while it is paused.
+    void waitFor(const Estimate& estimate) {
+        const Stamp now = estimate.stamp;
+        while (open() && !stop) {
+            if (takeKeys(now) && open()) show(estimate);
+            if (single_step) {
+                single_step = false;
+                pace(now);
+                return;
+            }
+            const double factor = speeds[speed];
+            const auto due = paced_at + std::chrono::duration<double>(
+                                            factor > 0 ? secondsBetween(paced_from, now) / factor : 0.0);
+            if (!paused && Clock::now() >= due) return;
+            std::this_thread::sleep_for(key_time);
+        }
+    }
+
+    void drawSight(const run::Step& step) {
+        sight->clear();
+        const Pose2& pose = step.estimate.robot.mean;
+        for (const RangeBearingSensor& sensor : step.detections.rangeBearing().sensors) {
+            if (!(sensor.max_range > 0)) continue;
+            reach = std::max(reach, 1.2 * sensor.max_range);
+            constexpr int pieces = 40;
+            const Vector2 at = pose * sensor.pose.position();
+            const auto rim = [&](int k) {
+                const double angle = pose.theta + sensor.pose.theta +
+                                     sensor.field_of_view * (static_cast<double>(k) / pieces - 0.5);
+                return Vector2(at + sensor.max_range * Vector2(std::cos(angle), std::sin(angle)));
+            };
+            for (int k = 0; k < pieces; ++k) {
+                const Vector2 a = rim(k), b = rim(k + 1);
+                sight->appendLine(a.x(), a.y(), 0.0, b.x(), b.y(), 0.0);
+            }
+            if (sensor.field_of_view < 2 * pi - 1e-6)
+                for (const Vector2& end : {rim(0), rim(pieces)})
+                    sight->appendLine(at.x(), at.y(), 0.0, end.x(), end.y(), 0.0);
+        }
+        for (const LandmarkEstimate& l : step.touched)
+            sight->appendLine(pose.x, pose.y, 0.0, l.mean.x(), l.mean.y(), 0.0);
+    }
+
+    void extendWays(const Estimate& estimate) {
+        extend(*robot_way, estimate.robot.mean.position());
+        for (const TrackEstimate& t : estimate.tracks) {
+            const auto [found, is_new] = tracks.try_emplace(t.id);
+            Track& track = found->second;
+            if (is_new) {
+                const TColor& colour =
+                    track_colours[static_cast<std::size_t>(t.id.value) % track_colours.size()];
+                track = {makeLines(colour, 2.0f), makeEllipse(colour)};
+                world->insert(track.way);
+                world->insert(track.ellipse);
+            }
+            extend(*track.way, t.mean.head<2>());
+        }
+    }
+
+    void drawRobot(const PoseGaussian& pose) {
+        place(*robot_ellipse, pose.mean.position(), pose.covariance.topLeftCorner<2, 2>());
+        robot->setScale(static_cast<float>(std::max(1.0, reach / 20)));  // to be seen
+        robot->setPose(mrpt::poses::CPose3D(pose.mean.x, pose.mean.y, 0, pose.mean.theta, 0, 0));
+    }
+
+    void drawTracks(const Estimate& estimate) {
+        for (auto& [id, track] : tracks) track.ellipse->setVisibility(false);
+        for (const TrackEstimate& t : estimate.tracks) {
+            const Track& track = tracks.at(t.id);
+            place(*track.ellipse, t.mean.head<2>(), t.covariance.topLeftCorner<2, 2>());
+            track.ellipse->setVisibility(true);
+        }
+    }
+
+    void drawLandmarks() {
+        for (const auto& [id, landmark] : changed) {
+            auto& ellipse = landmarks[id];
+            if (!ellipse) {
+                ellipse = makeEllipse(landmark_colour);
+                world->insert(ellipse);
+            }
+            place(*ellipse, landmark.mean, landmark.covariance);
+        }
+        changed.clear();
+    }
+
+    void show(const Estimate& estimate) {
+        const double factor = speeds[speed];
+        window->addTextMessage(
+            10, 10,
+            fmt::format("{:.1f} s  {}  {} landmarks, {} tracks   [space] pause  [s] step  [+ -] speed  [f] "
+                        "follow{}  [q] close",
+                        secondsBetween(start, estimate.stamp),
+                        paused       ? std::string("paused")
+                        : factor > 0 ? fmt::format("x{:.0f}", factor)
+                                     : "fastest",
+                        estimate.landmark_count, estimate.tracks.size(), follow ? " on" : " off"),
+            0, dark_text);
+        const Vector2 at = estimate.robot.mean.position();
+        if (follow || !was_placed) {
+            window->setCameraPointingToPoint(static_cast<float>(at.x()), static_cast<float>(at.y()), 0);
+            window->setCameraZoom(static_cast<float>(2.5 * reach));
+            was_placed = true;
+        }
+        window->repaint();
+        last_frame = Clock::now();
+    }
+};
+
+LiveWindow::LiveWindow(const std::string& title, const std::atomic<bool>& stop) {
+    if (!hasDisplay())
+        throw UsageError("--live: there is no display (DISPLAY), expected one to open a window on");
+    impl_ = std::make_unique<Impl>(title, stop);
+}
+
+LiveWindow::~LiveWindow() = default;
+
+void LiveWindow::step(const run::Step& step) {
+    Impl& live = *impl_;
+    const Estimate& estimate = step.estimate;
+    if (live.start == Stamp{}) {
+        live.start = estimate.stamp;
+        live.pace(estimate.stamp);
+    }
+    if (!live.open() || !step.has_detections) return;
+    for (const LandmarkEstimate& l : step.touched) live.changed[l.id] = l;
+    live.window->get3DSceneAndLock();
+    live.extendWays(estimate);
+    live.window->unlockAccess3DScene();
+    // At the highest speeds not every step can be a frame.
+    if (Clock::now() - live.last_frame >= frame_time || live.paused) {
+        live.window->get3DSceneAndLock();
+        live.drawRobot(estimate.robot);
+        live.drawSight(step);
+        live.drawTracks(estimate);
+        live.drawLandmarks();
+        live.window->unlockAccess3DScene();
+        live.show(estimate);
+    }
+    live.waitFor(estimate);
+}
+
+void LiveWindow::end(const run::RunEnd& end) {
+    Impl& live = *impl_;
+    if (!live.open()) return;
+    live.window->get3DSceneAndLock();
+    live.extendWays(end.estimate);
+    live.drawRobot(end.estimate.robot);
+    live.drawTracks(end.estimate);
+    // What was removed or merged on the way goes.
+    for (auto& [id, ellipse] : live.landmarks) ellipse->setVisibility(false);
+    for (const LandmarkEstimate& l : end.landmarks) live.changed[l.id] = l;
+    for (const auto& [id, landmark] : live.changed)
+        if (live.landmarks[id]) live.landmarks[id]->setVisibility(true);
+    live.drawLandmarks();
+    live.window->unlockAccess3DScene();
+    live.show(end.estimate);
+}
+
+void LiveWindow::waitUntilClosed() {
+    while (impl_->open() && !impl_->stop) {
+        impl_->takeKeys({});
+        std::this_thread::sleep_for(key_time);
+    }
+}
+
+}  // namespace slamot::app
