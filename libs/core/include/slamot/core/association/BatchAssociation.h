@@ -44,9 +44,9 @@ struct BatchAssociation {
         double likelihood_ratio = 0;
     };
     std::vector<Pair> of_detection;  ///< by number of detection
-    /// By number of detection: it was to be associated, no object explains it, and it may be of something
-    /// new: its pair with a landmark is undecided, or all objects within whose separation gate it lies are
-    /// paired with others of its sensor. Never where the method of a kind that it may be of is `known`.
+    /// By number of detection: it was to be associated, no object explains it, and all objects within whose
+    /// separation gate it lies are spoken for by pairs of its sensor, decided or not: it may be of something
+    /// new. Never where the method of a kind that it may be of is `known`.
     std::vector<bool> may_be_new;
     /// By number of object: one whose pair is undecided; it was neither seen nor missed.
     std::vector<bool> in_doubt;
