@@ -7,6 +7,7 @@
     const plot = new Plot(element);
     plots.set(element, plot);
     plot.show();
+    plot.keepForPaper();
     new PlotTools(plot, element.dataset.figure);
   };
   const figures = [...document.querySelectorAll('figure[data-figure]')];
@@ -32,13 +33,17 @@
   const replays = [...document.querySelectorAll('[data-replay]')].map((element) => new Replay(element));
 
   theme.onChange(() => {
-    plots.forEach((plot) => plot.show());
+    plots.forEach((plot) => {
+      if (theme.isForPaper() && plot.paper) plot.canvas.innerHTML = plot.paper;
+      else plot.show();
+    });
     replays.forEach((replay) => replay.draw());
   });
   document.getElementById('theme').addEventListener('change', (event) => theme.choose(event.target.value));
   document.getElementById('print').addEventListener('click', () => window.print());
   window.addEventListener('beforeprint', () => {
     figures.forEach(shown);
+    document.querySelectorAll('main section > details').forEach((details) => { details.open = true; });
     theme.forPaper(true);
   });
   window.addEventListener('afterprint', () => theme.forPaper(false));

@@ -22,8 +22,8 @@ class Plot {
   }
 
   /** The specification with a signal for every axis that can be moved and every layer with a name. */
-  specification() {
-    const spec = {...theme.themed(this.source), signals: [], usermeta: undefined};
+  specification(colours = theme.themed) {
+    const spec = {...colours(this.source), signals: [], usermeta: undefined};
     spec.config = {...spec.config, aria: false};
     spec.marks = spec.marks.map((mark) => {
       const panel = /^panel_(\d+)$/.exec(mark.name || '');
@@ -64,6 +64,15 @@ class Plot {
     this.view.initialize(place).run();
     for (const name of ['role', 'aria-roledescription', 'aria-label']) place.removeAttribute(name);
     this.element.dataset.shown = 'true';
+  }
+
+  /** Images load too slowly to be drawn when printing has begun, so figures with one keep a picture for it. */
+  async keepForPaper() {
+    const hasImage = this.source.marks.some(({marks = []}) => marks.some(({type}) => type === 'image'));
+    if (!hasImage) return;
+    const view = new vega.View(vega.parse(this.specification((spec) => spec)), {renderer: 'none'});
+    this.paper = await view.toSVG();
+    view.finalize();
   }
 
   toggle(label, shown) {

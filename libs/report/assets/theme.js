@@ -34,6 +34,7 @@ const theme = (() => {
     colour: (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim(),
     onChange: (listener) => listeners.push(listener),
     choose: (name) => { choice = name; apply(); },
+    isForPaper: () => printing,
     forPaper: (on) => { printing = on; apply(); },
   };
 })();

@@ -157,6 +157,9 @@ class Pages(unittest.TestCase):
             page.wait_for_figures()
             page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
             self.assertEqual(page.evaluate("document.documentElement.dataset.theme"), "light")
+            # Images come late: the heat map must be there at once.
+            image = "document.querySelector('#figure-correlation image')"
+            self.assertTrue(page.evaluate(f"{image} && {image}.getAttributeNames().some((n) => /href/.test(n) && {image}.getAttribute(n).startsWith('data:image/png'))"))
             page.evaluate("window.dispatchEvent(new Event('afterprint'))")
             self.assertEqual(page.evaluate("document.documentElement.dataset.theme"), "dark")
             page.print_to_pdf(self.folder / "page.pdf")

@@ -84,6 +84,11 @@ std::string html(const Verbatim& verbatim, std::size_t number) {
                                                   escaped(verbatim.summary), text);
 }
 
+std::string keyEntry(const std::string& drawing, const std::string& words) {
+    return "<li><svg aria-hidden=\"true\" viewBox=\"0 0 16 8\">" + drawing + "</svg>" + escaped(words) +
+           "</li>";
+}
+
 std::string html(const ReplayView& replay) {
     std::string out = "<div class=\"replay\" data-replay>\n";
     out +=
@@ -106,16 +111,22 @@ std::string html(const ReplayView& replay) {
                            std::string(value) == "follow" ? "" : " checked", label);
     }
     out += "</fieldset>\n";
+    out += "<ul class=\"key\" aria-label=\"What is drawn\">";
+    out += keyEntry("<path d=\"M3 1 L14 4 L3 7 Z\" fill=\"" + std::string(colour::blue) + "\"/>",
+                    "robot and its way");
+    out += keyEntry("<rect x=\"6\" y=\"2\" width=\"4\" height=\"4\" fill=\"currentColor\"/>", "landmark");
+    out += keyEntry("<path d=\"M5 1 L11 7 M5 7 L11 1\" stroke=\"currentColor\"/>", "true landmark");
+    out += keyEntry("<path d=\"M0 4 H16\" stroke-width=\"4\" stroke=\"currentColor\" opacity=\"0.35\"/>",
+                    "true way");
+    out +=
+        keyEntry("<path d=\"M0 4 H16\" stroke=\"" + std::string(colour::sky) + "\"/>", "seen at this step");
     if (replay.modes.size() > 1) {
-        out += "<ul class=\"key\" aria-label=\"Colours of the modes of tracks\">";
-        for (const auto& [name, colour] : replay.modes) {
-            out += fmt::format(
-                "<li><svg aria-hidden=\"true\" viewBox=\"0 0 16 8\"><circle cx=\"8\" cy=\"4\" r=\"4\" "
-                "fill=\"{}\"/></svg>mode {}</li>",
-                escaped(colour), escaped(name));
+        for (const auto& [name, mode_colour] : replay.modes) {
+            out += keyEntry("<circle cx=\"8\" cy=\"4\" r=\"4\" fill=\"" + escaped(mode_colour) + "\"/>",
+                            "track in mode " + name);
         }
-        out += "</ul>\n";
     }
+    out += "</ul>\n";
     return out + "<script type=\"application/json\" class=\"data\">" + inScript(replay.data) +
            "</script>\n</div>\n";
 }
