@@ -45,7 +45,7 @@ void writeOverview(const run::JobResult& result, const Truth* truth, const Optio
 void writeReport(const Options& options) {
     try {
         report::writeRunReport(options.out);
-    } catch (const report::ReportError& error) {
+    } catch (const std::exception& error) {  // whatever it is, the run itself is done
         fmt::print(stderr, "slamot: no report: {}\n", error.what());
     }
 }
