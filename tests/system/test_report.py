@@ -1,5 +1,6 @@
 """`slamot report` and `slamot compare`: pages from the files of runs, and sentences where there is nothing to show."""
 import json
+import os
 import re
 import shutil
 import unittest
@@ -104,6 +105,14 @@ class Pages(SlamotTest):
         shutil.copy(self.logs / "demo.rawlog", self.path("<script>alert(1)</script>.rawlog".replace("/", "_")))
         self.slamot("-q", "run", EKF, "<script>alert(1)<_script>.rawlog", "-o", "out", "--set", "output.figure=false")
         self.assertNotIn("<script>alert", self.page())
+
+    def test_a_log_whose_name_is_no_utf8_has_its_page_and_picture(self):
+        name = os.fsdecode(b"drive_\xff.rawlog")
+        shutil.copy(self.logs / "demo.rawlog", self.path(name))
+        done = self.slamot("-q", "run", SOURCE / "config/runs/demo.ini", name, "-o", "out")
+        self.assertNotIn("no report", done.stderr)
+        self.assertIn("drive_\N{REPLACEMENT CHARACTER}", self.page())
+        self.assertIn("drive_\N{REPLACEMENT CHARACTER}", self.page("out/overview.vg.json"))
 
     def test_broken_and_foreign_folders_are_refused(self):
         self.slamot("report", "nowhere", code=2, says=["nowhere", "output folder of a run"])
