@@ -97,6 +97,26 @@ TEST_F(RunJobTest, TheSummaryListsTheSensorsThatDetectionsCameFrom) {
         EXPECT_TRUE(sensors[0][number].is_number()) << number;
 }
 
+/// A window that a person pauses.
+class PatientSink : public run::Sink {
+  public:
+    void step(const run::Step&) override {}
+    double heldBack() const override { return 1000; }
+};
+
+TEST_F(RunJobTest, WaitingForWhoWatchesIsNoPartOfTheWallTime) {
+    writeLog(path("a.rawlog"), drive());
+    const double alone = runLog("a.rawlog", "").summary["time"]["wall_s"];
+    EXPECT_GT(alone, 0);
+    PatientSink window;
+    run::RunRequest request;
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.sinks = {&window};
+    // It did not really wait: what is left is below 0, since no such run takes 1000 s.
+    EXPECT_LT(run::runLog(request, registry()).summary["time"]["wall_s"].get<double>(), 0);
+}
+
 TEST_F(RunJobTest, ASensorWithoutALimitIsNullInTheSummary) {
     const auto log = drive();
     for (const auto& o : log)

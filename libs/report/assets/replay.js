@@ -8,6 +8,7 @@ class Replay {
       if (id === 'robot' || id === 'tracks' || id === 'landmarks') this.data[id] = data;  // other layers ask for them
     }
     this.canvas = element.querySelector('canvas');
+    this.stage = element.querySelector('.stage');
     this.slider = element.querySelector('input[type=range]');
     this.playButton = element.querySelector('.play');
     this.speed = element.querySelector('.speed');
@@ -34,9 +35,9 @@ class Replay {
     this.element.querySelectorAll('input[type=checkbox]').forEach(
         (box) => box.addEventListener('change', () => this.draw()));
     this.element.querySelector('.whole').addEventListener('click', () => this.whole());
-    this.canvas.addEventListener('keydown', (event) => this.key(event));
+    this.stage.addEventListener('keydown', (event) => this.key(event));
     this.canvas.addEventListener('wheel', (event) => {
-      if (!event.ctrlKey && document.activeElement !== this.canvas) return;
+      if (!event.ctrlKey && document.activeElement !== this.stage) return;
       event.preventDefault();
       this.enlarge(Math.exp(-0.002 * event.deltaY));
     }, {passive: false});

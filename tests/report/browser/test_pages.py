@@ -76,7 +76,7 @@ class Pages(unittest.TestCase):
             self.assertTrue(page.evaluate(words).startswith(f"{times[40]:.2f} s of {times[-1]:.2f} s"), page.evaluate(words))
             self.assertTrue(end_words.startswith(f"{times[-1]:.2f} s"), end_words)
             # The keyboard alone: one step back, then to the start.
-            page.evaluate("document.querySelector('.replay canvas').focus()")
+            page.evaluate("document.querySelector('.replay .stage').focus()")
             page.key("ArrowLeft")
             self.assertTrue(page.evaluate(words).startswith(f"{times[39]:.2f} s"), page.evaluate(words))
             page.key("Home")
@@ -87,7 +87,7 @@ class Pages(unittest.TestCase):
         with self.open() as page:
             count = "Number(/(\\d+) landmarks/.exec(document.querySelector('.replay .state').textContent)[1])"
             at_end = page.evaluate(count)
-            page.evaluate("document.querySelector('.replay canvas').focus()")
+            page.evaluate("document.querySelector('.replay .stage').focus()")
             page.key("Home")
             self.assertLess(page.evaluate(count), at_end)
             summary = json.loads((self.folder / "imm/summary.json").read_text())

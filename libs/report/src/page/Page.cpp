@@ -104,8 +104,11 @@ std::string keyColour(const char* attribute, const std::string& light) {
 
 std::string html(const ReplayView& replay) {
     std::string out = "<div class=\"replay\" data-replay>\n";
-    out +=
-        fmt::format("<canvas tabindex=\"0\" role=\"img\" aria-label=\"{}\"></canvas>\n", escaped(replay.alt));
+    // The group takes the keys; what is seen in it is a picture.
+    out += fmt::format(
+        "<div class=\"stage\" tabindex=\"0\" role=\"group\" aria-label=\"Replay\">"
+        "<canvas role=\"img\" aria-label=\"{}\"></canvas></div>\n",
+        escaped(replay.alt));
     out +=
         "<div class=\"time\"><button type=\"button\" class=\"play\">Play</button>"
         "<input type=\"range\" min=\"0\" max=\"1\" step=\"1\" value=\"0\" aria-label=\"Time\">"
