@@ -363,6 +363,18 @@ TEST(Courses, linesDoNotBridgeGaps) {
     EXPECT_TRUE(std::isnan(course.error[4]));
 }
 
+TEST(FollowedObject, isTheTrackThatMetricsCount) {
+    std::vector<TrackEstimate> tracks(3);
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+        tracks[k].id = {static_cast<std::int64_t>(9 - k)};
+        tracks[k].source = {4};
+        tracks[k].existence = k == 0 ? 0.5 : 0.9;
+    }
+    FollowedObject object;
+    object.source = {4};
+    EXPECT_EQ(object.among(tracks)->id.value, 7);  // of 8 and 7, which are as likely to exist
+}
+
 TEST(Courses, quantilesInterpolate) {
     EXPECT_EQ(quantile({4, 1, 3, 2}, 0.5), 2.5);
     EXPECT_EQ(quantile({1, 2, 3}, 1), 3);
