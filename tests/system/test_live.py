@@ -43,8 +43,8 @@ class Live(SlamotTest):
         cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1200x900x24"],
                                       pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
-        cls.display = ":" + os.read(read, 16).decode().strip()
-        os.close(read)
+        with os.fdopen(read) as announced:  # to the end of the line: the server dies of a reader that has gone
+            cls.display = ":" + announced.readline().strip()
 
     @classmethod
     def tearDownClass(cls):
