@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "MetricRows.h"
+#include "Text.h"
 #include "report/RunFiles.h"
 #include "slamot/report/Comparison.h"
 
@@ -74,8 +75,65 @@ TEST_F(Comparison, equalValuesHaveNoBest) {
     EXPECT_FALSE(nees.values[0].best || nees.values[1].best);
 }
 
-TEST_F(Comparison, theTableFitsEightyColumns) {
-    const std::string text = comparisonText(seedsAndOne());
+TEST_F(Comparison, aSeedOfClutterIsNoOtherConfiguration) {
+    const auto withClutter = [](const std::string& seed, const std::string& world) {
+        std::string summary = test::summaryJson("a.rawlog", rmse("1"), seed);
+        const std::string end = R"(\n", "counts")";
+        return summary.replace(summary.find(end), end.size(),
+                               R"(\n[clutter]\nrate = 2\nseed = )" + world + end);
+    };
+    EXPECT_EQ(groupRuns({run("a_1", withClutter("1", "11")), run("a_2", withClutter("2", "12"))}).size(), 1u);
+    std::string other = withClutter("2", "12");
+    other.replace(other.find("rate = 2"), 8, "rate = 3");
+    EXPECT_EQ(groupRuns({run("a_1", withClutter("1", "11")), run("a_3", other)}).size(), 2u);
+}
+
+std::string withStatus(std::string summary, const std::string& status) {
+    return summary.replace(summary.find(R"("status": "complete")"), 20, R"("status": ")" + status + '"');
+}
+
+TEST_F(Comparison, runsThatBrokeOffAreSaidAndNeverTheBest) {
+    // One of three seeds broke off early with the smallest error, one failed and has none.
+    const std::vector<RunGroup> groups =
+        groupRuns({run("mine_1", withStatus(test::summaryJson("a.rawlog", rmse("0.1"), "1"), "stopped")),
+                   run("mine_2", test::summaryJson("a.rawlog", rmse("1"), "2")),
+                   run("mine_3", withStatus(test::summaryJson("a.rawlog", "null", "3"), "failed")),
+                   run("other", withKey(test::summaryJson("a.rawlog", rmse("2"), "1"), "2")),
+                   run("third", withKey(test::summaryJson("a.rawlog", rmse("3"), "1"), "3"))});
+    const ComparedMetric row = metric(compareMetrics(groups), "position RMSE [m]");
+    EXPECT_EQ(row.values[0].count, 2u);
+    EXPECT_EQ(row.values[0].of, 3u);
+    EXPECT_FALSE(row.values[0].best);
+    EXPECT_TRUE(row.values[1].best);  // of those that came to the end
+    const std::string text = comparisonText(groups), html = toHtml(comparisonPage(groups));
+    EXPECT_THAT(text, HasSubstr("1 of 3 complete"));
+    EXPECT_THAT(text, HasSubstr(" n=2 "));
+    EXPECT_THAT(html, HasSubstr(">1 of 3 complete<"));
+    EXPECT_THAT(html, HasSubstr("(2 of 3 runs)"));
+    EXPECT_THAT(html, HasSubstr("<td>failed</td>"));
+}
+
+TEST_F(Comparison, aSingleRunThatFailedIsSaid) {
+    const std::vector<RunGroup> groups =
+        groupRuns({run("one", withStatus(test::summaryJson("a.rawlog", "null"), "failed")),
+                   run("two", withKey(test::summaryJson("a.rawlog", rmse("2")), "2"))});
+    EXPECT_THAT(comparisonText(groups), HasSubstr("failed"));
+    EXPECT_FALSE(
+        metric(compareMetrics(groups), "position RMSE [m]").values[1].best);  // none to be better than
+}
+
+TEST_F(Comparison, seedsOf64BitsKeepEveryDigit) {
+    // 2^53 + 1 is the first whole number that no double holds.
+    const auto summary = [](const std::string& key) {
+        return withKey(test::summaryJson("a.rawlog", rmse("1"), "9007199254740993"), key);
+    };
+    const std::string html =
+        toHtml(comparisonPage(groupRuns({run("one", summary("1")), run("two", summary("2"))})));
+    EXPECT_THAT(html, HasSubstr("<td class=\"number\">9007199254740993</td>"));
+    EXPECT_THAT(html, ::testing::Not(HasSubstr("9007199254740992")));
+}
+
+void expectEightyColumns(const std::string& text) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         std::size_t columns = 0;
@@ -84,8 +142,33 @@ TEST_F(Comparison, theTableFitsEightyColumns) {
         }
         EXPECT_LE(columns, 80u) << line;
     }
+}
+
+TEST_F(Comparison, theTableFitsEightyColumns) {
+    const std::string text = comparisonText(seedsAndOne());
+    expectEightyColumns(text);
     EXPECT_THAT(text, HasSubstr("1.5*"));
     EXPECT_THAT(text, HasSubstr("2+-2.5"));
+}
+
+TEST_F(Comparison, theTableFitsEightyColumnsWhateverTheNumbersAre) {
+    std::vector<RunFolder> runs;
+    for (const char* key : {"1", "2", "3", "4"}) {
+        for (const char* seed : {"1", "2"}) {
+            const std::string value = std::string(seed) == "1" ? "-1.2345e-101" : "9.8765e-101";
+            runs.push_back(run(std::string("a_long_name_ändert_sich_") + key + "_" + seed,
+                               withKey(test::summaryJson("a.rawlog", rmse(value), seed), key)));
+        }
+    }
+    const std::string text = comparisonText(groupRuns(runs));
+    expectEightyColumns(text);
+    EXPECT_THAT(text, HasSubstr("4.32e-101+-7.1e-100"));  // the mean of both; 12.706 sd / sqrt(2)
+}
+
+TEST(Text, isCutBetweenCharacters) {
+    EXPECT_EQ(lastCodePoints("äöü", 3, ".."), "äöü");
+    EXPECT_EQ(lastCodePoints("aäöü", 3, ".."), "..ü");
+    EXPECT_EQ(codePoints("aäöü"), 4u);
 }
 
 TEST_F(Comparison, thePageWarnsOfOtherLogs) {
@@ -96,6 +179,21 @@ TEST_F(Comparison, thePageWarnsOfOtherLogs) {
     };
     EXPECT_THAT(page("b.rawlog"), HasSubstr("not of the same logs"));
     EXPECT_THAT(page("a.rawlog"), ::testing::Not(HasSubstr("not of the same logs")));
+}
+
+TEST_F(Comparison, truthMeasuredAtAPointIsDrawnAtTheOrigin) {
+    RunFolder one = run("one", test::summaryJson());
+    one.truth.emplace();
+    one.truth->point = {0, 2};
+    for (const eval::RobotRow& row : one.run.trajectory) {
+        one.truth->robot.push_back({row.stamp, {row.robot.mean.x, 2, std::nan("")}});
+    }
+    one.pairs = eval::pairWithTruth(one.run.trajectory, *one.truth).pairs;
+    const Page page = comparisonPage(groupRuns({one}));
+    ASSERT_EQ(page.sections.at(1).id, "ways");
+    const Figure& figure = std::get<PageFigure>(page.sections[1].blocks.at(0)).figure;
+    EXPECT_EQ(std::get<Line>(figure.panels.at(0).layers.at(0)).points,
+              (Points2{{0, 0}, {1, 0}, {2, 0}, {3, 0}}));
 }
 
 TEST(MetricRows, theBestOfAMetricIsWhatItSays) {
@@ -113,6 +211,7 @@ TEST(MetricRows, theBestOfAMetricIsWhatItSays) {
 
 TEST(MetricRows, numbersAreShort) {
     EXPECT_EQ(shortNumber(0), "0");
+    EXPECT_EQ(shortNumber(std::nan("")), "nan");
     EXPECT_EQ(shortNumber(0.0123456), "0.01235");
     EXPECT_EQ(shortNumber(-1.5), "-1.5");
     EXPECT_EQ(shortNumber(1234.56), "1235");

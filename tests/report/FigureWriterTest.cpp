@@ -51,6 +51,13 @@ class FigureWriter : public ::testing::Test {
     const fs::path folder_ = temporary_.path();
 };
 
+TEST_F(FigureWriter, aTitleThatIsNoUtf8IsReplaced) {
+    Figure figure = simpleFigure();
+    figure.title = "a \xFF label";
+    writeFigure(figure, folder_ / "odd", {true, false, false});
+    EXPECT_THAT(textOf(folder_ / "odd.vg.json"), HasSubstr("a \xEF\xBF\xBD label"));
+}
+
 #define SKIP_IF_NOT_DRAWN()                                            \
     if (const std::string reason = whyNotDrawn(); !reason.empty()) {   \
         ASSERT_THAT(reason, HasSubstr("install the Debian package ")); \

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "OverviewView.h"
+#include "slamot/core/data/Angle.h"
 #include "slamot/report/Overview.h"
 
 namespace slamot::report {
@@ -79,6 +80,36 @@ TEST(Overview, showsRobotTrackAndTruth) {
     ASSERT_TRUE(track);
     ASSERT_EQ(track->points.size(), 3u);
     EXPECT_TRUE(std::isnan(track->points[1].x()));  // absent: a gap
+}
+
+/// The robot turns to the left by a quarter between its first two steps. Truth is measured 2 m ahead of its
+/// origin and knows no heading.
+TEST(Overview, truthMeasuredAtAPointIsDrawnAtTheOrigin) {
+    eval::RunRecord run = shortRun();
+    run.trajectory[1].robot.mean.theta = run.trajectory[2].robot.mean.theta = pi / 2;
+    Truth truth;
+    truth.point = {2, 0};
+    truth.max_interpolation_gap = 1;
+    // Ahead of (0, 0), of (1, 0) and of (2, 0); one more in the middle of the turn, where it looks to 45
+    // degrees.
+    const double half = std::sqrt(0.5);
+    const Vector2 measured[] = {{2, 0}, {0.5 + 2 * half, 2 * half}, {1, 2}, {2, 2}};
+    const double t[] = {1000, 1000.025, 1000.05, 1000.1};
+    for (int k = 0; k < 4; ++k) {
+        truth.robot.push_back({Stamp::fromSeconds(t[k]), {measured[k].x(), measured[k].y(), std::nan("")}});
+    }
+    const Figure figure = overviewFigure(run, &truth);
+    const Line* way = layerNamed<Line>(figure.panels[0], "Robot, true");
+    ASSERT_TRUE(way);
+    ASSERT_EQ(way->points.size(), 4u);
+    const Vector2 expected[] = {{0, 0}, {0.5, 0}, {1, 0}, {2, 0}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR((way->points[k] - expected[k]).norm(), 0, 1e-12) << k;  // rounding
+    }
+    // What is seen is what counts: the distance between both lines is the error.
+    const Line& error = std::get<Line>(figure.panels.at(1).layers.at(1));
+    EXPECT_NEAR(error.points[1].y(), 0.3, 1e-12);
+    EXPECT_NEAR(error.points[2].y(), 0.4, 1e-12);
 }
 
 TEST(Overview, theBoundIsThreeSigmaOfTheWidestAxis) {

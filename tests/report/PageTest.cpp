@@ -45,7 +45,11 @@ TEST(Page, everythingOfItIsText) {
          evil,
          evil,
          {Paragraph{evil}, Verbatim{evil, evil, true}, table, PageFigure{"name", evil, figure, evil},
-          ReplayView{evil, json({{"text", evil}}).dump(), {{evil, "#000000"}, {evil, "#000000"}}}}});
+          ReplayView{evil,
+                     json({{"text", evil}}).dump(),
+                     evil,
+                     {{evil, evil, true}},
+                     {{evil, "#000000"}, {evil, "#000000"}}}}});
     EXPECT_THAT(toHtml(page), Not(HasSubstr("<script>alert")));
 }
 

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -36,7 +37,7 @@ TEST(RunFolder, readsWhatARunLeft) {
     EXPECT_EQ(run.steps[2].update_ms, 3);
     EXPECT_EQ(run.pairs.size(), 4u);
     EXPECT_EQ(run.number("time/step_ms/mean"), 0.25);
-    EXPECT_FALSE(run.number("metrics/robot/position/rmse"));
+    EXPECT_FALSE(run.number("metrics/no/such"));
     EXPECT_FALSE(run.correlation);
 }
 
@@ -58,6 +59,44 @@ TEST(RunFolder, saysWhereTruthThatIsGoneWas) {
     EXPECT_THROW(readRunFolder(folder.path(), "no/such.truth"), LogError);  // asked for: an error
 }
 
+TEST(RunFolder, aBrokenTruthOfTheRunIsASentenceAndOneAskedForAnError) {
+    const TemporaryFolder folder, truth;
+    std::string summary = test::summaryJson();
+    summary.replace(summary.find(R"("truth": null)"), 13, R"("truth": ")" + truth.path() + '"');
+    test::writeRun(folder, summary);
+    test::writeTruth(truth);
+    EXPECT_EQ(readRunFolder(folder.path()).truth_folder, truth.path());
+    truth.write("robot.csv", "t,x,y\n");
+    const RunFolder run = readRunFolder(folder.path());
+    EXPECT_FALSE(run.truth);
+    EXPECT_THAT(run.why_no_truth, HasSubstr("robot.csv"));
+    EXPECT_THROW(readRunFolder(folder.path(), truth.path()), LogError);
+}
+
+TEST(RunFolder, metricsAreThoseOfTheTruthThatWasAskedFor) {
+    const TemporaryFolder folder, truth;
+    test::writeRun(folder, test::summaryJson("my.rawlog", R"({"robot": {"position": {"rmse": 77}}})"));
+    test::writeTruth(truth);
+    const char* rmse = "metrics/robot/position/rmse";
+    EXPECT_EQ(readRunFolder(folder.path()).number(rmse), 77);
+    EXPECT_FALSE(readRunFolder(folder.path(), "none").number(rmse));
+    // Errors of 0, 0.1, 0.2 and 0.3 m.
+    EXPECT_NEAR(*readRunFolder(folder.path(), truth.path()).number(rmse), std::sqrt(0.14 / 4), 1e-12);
+}
+
+TEST(RunFolder, metricsAreEvaluatedAsTheRunWas) {
+    const TemporaryFolder folder, truth;
+    test::writeTruth(truth);
+    test::writeRun(folder, test::summaryJson("my.rawlog", R"({"options": {"landmark_cutoff": "0.25"}})"));
+    EXPECT_EQ(readRunFolder(folder.path()).evaluation.landmark_cutoff, 0.25);
+    std::string summary = test::summaryJson();  // no metrics: as its settings say
+    summary.replace(summary.find("[run]"), 5, "[eval]\\nprobability = 0.5\\n[run]");
+    test::writeRun(folder, summary);
+    EXPECT_EQ(readRunFolder(folder.path()).evaluation.probability, 0.5);
+    const RunFolder run = readRunFolder(folder.path(), truth.path());
+    EXPECT_EQ(run.summary.at("metrics").at("options").at("probability"), "0.5");
+}
+
 TEST(RunFolder, refusesWhatNoRunLeft) {
     const TemporaryFolder folder;
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("no summary.json"));
@@ -65,6 +104,41 @@ TEST(RunFolder, refusesWhatNoRunLeft) {
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("is not what slamot writes"));
     folder.write("summary.json", "{");
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("is not what slamot writes"));
+}
+
+TEST(RunFolder, namesTheSummaryThatIsOfAnotherKind) {
+    const auto errorWith = [](const std::string& from, const std::string& to) {
+        const TemporaryFolder folder;
+        std::string summary = test::summaryJson("my.rawlog", R"({"options": {"probability": "0.9"}})");
+        const std::size_t at = summary.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        test::writeRun(folder, summary.replace(at, from.size(), to));
+        return errorOf(folder.path());
+    };
+    EXPECT_EQ(errorWith("0.9", "0.9"), "no error");
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {R"("probability": "0.9")", R"("probability": "much")"},
+             {R"("probability": "0.9")", R"("probability": {})"},
+             {R"("program": "slamot")", R"("program": 1)"},
+             {R"("sensors": [])", R"("sensors": [7])"},
+             {R"("sensors": [])", R"("sensors": [{"x": "far"}])"},
+             {R"("warnings": [])", R"("warnings": "one")"},
+             {R"("log": "my.rawlog")", R"("log": [])"},
+             {R"("count": 7)", R"("count": "many")"}}) {
+        const std::string error = errorWith(from, to);
+        EXPECT_THAT(error, HasSubstr("summary.json")) << to;
+        EXPECT_THAT(error, HasSubstr("expected")) << to;
+        EXPECT_THAT(error, ::testing::Not(HasSubstr("json.exception"))) << to;
+    }
+}
+
+TEST(RunFolder, refusesPlacesThatAreNoNumbers) {
+    const TemporaryFolder folder;
+    test::writeRun(folder);
+    folder.write("landmarks_history.csv",
+                 "t,id,x,y,c_xx,c_xy,c_yy,existence,moving,source_id\n"
+                 "1000.0000000,1,5,nan,4,0,9,1,0,10\n1001.0000000,1,5,7,4,0,9,1,0,10\n");
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("landmarks_history.csv:2"));
 }
 
 TEST(RunFolder, readsTheCorrelationMatrixAndRefusesABrokenOne) {
@@ -82,6 +156,10 @@ TEST(RunFolder, readsTheCorrelationMatrixAndRefusesABrokenOne) {
     EXPECT_EQ(run.correlation->cells(0, 1), 0.5F);
     EXPECT_EQ(run.correlation->cells(1, 0), -0.5F);
     folder.write("correlation.bin", bytes.substr(0, bytes.size() - 1));
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("correlation.bin"));
+    std::string fewer = bytes;
+    fewer[12] = 1;  // components, fewer than rows
+    folder.write("correlation.bin", fewer);
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("correlation.bin"));
     bytes[16] = 3;  // rows that the file does not have
     folder.write("correlation.bin", bytes);

@@ -1,7 +1,9 @@
 // Whole runs: from a log to an output folder.
 #include <gmock/gmock.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -93,6 +95,38 @@ TEST_F(RunJobTest, TheSummaryListsTheSensorsThatDetectionsCameFrom) {
     EXPECT_EQ(sensors[1]["label"], "movers");
     for (const char* number : {"x", "y", "theta", "min_range", "max_range", "field_of_view"})
         EXPECT_TRUE(sensors[0][number].is_number()) << number;
+}
+
+/// A window that a person pauses.
+class PatientSink : public run::Sink {
+  public:
+    void step(const run::Step&) override {}
+    double heldBack() const override { return 1000; }
+};
+
+TEST_F(RunJobTest, WaitingForWhoWatchesIsNoPartOfTheWallTime) {
+    writeLog(path("a.rawlog"), drive());
+    const double alone = runLog("a.rawlog", "").summary["time"]["wall_s"];
+    EXPECT_GT(alone, 0);
+    PatientSink window;
+    run::RunRequest request;
+    request.log_file = path("a.rawlog");
+    request.out_folder = path("out");
+    request.sinks = {&window};
+    // It did not really wait: what is left is below 0, since no such run takes 1000 s.
+    EXPECT_LT(run::runLog(request, registry()).summary["time"]["wall_s"].get<double>(), 0);
+}
+
+TEST_F(RunJobTest, ASensorWithoutALimitIsNullInTheSummary) {
+    const auto log = drive();
+    for (const auto& o : log)
+        if (auto* seen = dynamic_cast<mrpt::obs::CObservationBearingRange*>(o.get()))
+            seen->maxSensorDistance = std::numeric_limits<float>::infinity();
+    writeLog(path("a.rawlog"), log);
+    const auto sensors = runLog("a.rawlog", "").summary["sensors"];
+    ASSERT_EQ(sensors.size(), 2u);
+    EXPECT_TRUE(sensors[0]["max_range"].is_null()) << sensors;
+    EXPECT_TRUE(sensors[0]["min_range"].is_number());
 }
 
 TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {

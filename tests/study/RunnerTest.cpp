@@ -1,6 +1,7 @@
 // Rows do not depend on how they came to be.
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "../../libs/study/src/FigureNames.h"
 #include "StudyFolder.h"
@@ -289,6 +290,11 @@ TEST_F(RunnerTest, KeepsCompleteFoldersWhenAskedAndTheSameRows) {
     for (const char* file : {"near-1/classic/trajectory.csv", "near-1/invariant/summary.json",
                              "far-1/truth/robot.csv", "far-1/classic/estimate.rawlog"})
         EXPECT_TRUE(std::filesystem::exists(folder.path("kept/") + file)) << file;
+    // The page of a kept run finds its truth there.
+    const auto summary = nlohmann::json::parse(folder.read("kept/near-1/invariant/summary.json"));
+    EXPECT_EQ(summary["truth"], folder.path("kept/near-1/truth"));
+    EXPECT_EQ(readTruth(summary["truth"].get<std::string>()).robot.size(),
+              readTruth(folder.path("kept/near-1/truth")).robot.size());
 }
 
 TEST_F(RunnerTest, ProgressCountsRuns) {

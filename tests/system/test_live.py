@@ -3,12 +3,26 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
 from program import PROGRAM, SOURCE, TIMEOUT_SECONDS, SlamotTest
 
 TOOLS = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
+# Sends WM_DELETE_WINDOW by Xlib; the layout of XClientMessageEvent on 64-bit systems.
+CLOSE = """
+import ctypes, struct, sys
+x = ctypes.CDLL("libX11.so.6")
+x.XOpenDisplay.restype = ctypes.c_void_p
+x.XInternAtom.restype = ctypes.c_ulong
+display, window = ctypes.c_void_p(x.XOpenDisplay(None)), int(sys.argv[1])
+protocols, delete = (x.XInternAtom(display, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
+event = struct.pack("iLiPLLi5L", 33, 0, 1, display.value, window, protocols, 32, delete, 0, 0, 0, 0)
+x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.create_string_buffer(event, 192))
+x.XFlush(display)
+x.XSync(display, 0)
+"""
 CONFIG = SOURCE / "config/runs/demo.ini"
 
 
@@ -76,6 +90,34 @@ class Live(SlamotTest):
         self.assertEqual(code, 0, errors)
         self.assertEqual(self.summary()["status"], "complete")
         self.assertEqual(self.summary()["estimate_sha256"], self.without_window())
+
+    def close_by_the_title_bar(self):
+        """What a window manager does; there is none here. xdotool of Debian 12 cannot."""
+        subprocess.run([sys.executable, "-c", CLOSE, self.window], check=True, timeout=TIMEOUT_SECONDS,
+                       env={"DISPLAY": self.display, "PATH": os.environ["PATH"]})
+
+    def test_closing_by_the_title_bar_leaves_the_run_alone(self):
+        wanted = self.without_window()
+        # While it draws, and while it is paused.
+        for pause in (False, True):
+            with self.subTest(pause=pause):
+                self.start()
+                self.xdotool("key", "space" if pause else "plus")
+                time.sleep(0.3)
+                self.close_by_the_title_bar()
+                code, errors = self.wait()
+                self.assertEqual(code, 0, errors)
+                self.assertEqual(self.summary()["status"], "complete")
+                self.assertEqual(self.summary()["estimate_sha256"], wanted)
+
+    def test_pauses_are_no_part_of_what_the_run_costs(self):
+        begin = time.monotonic()
+        self.start()
+        self.xdotool("key", "space")
+        time.sleep(3)
+        self.xdotool("key", "q")
+        self.assertEqual(self.wait()[0], 0)
+        self.assertLess(self.summary()["time"]["wall_s"], time.monotonic() - begin - 3)
 
     def test_a_paused_run_waits_and_goes_on(self):
         self.start()

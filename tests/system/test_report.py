@@ -1,5 +1,6 @@
 """`slamot report` and `slamot compare`: pages from the files of runs, and sentences where there is nothing to show."""
 import json
+import os
 import re
 import shutil
 import unittest
@@ -71,14 +72,47 @@ class Pages(SlamotTest):
         self.assertIn("id=\"nees\"", with_truth)
         self.assertNotIn("id=\"nees\"", self.page("plain.html"))
         self.assertEqual(self.page(), with_truth)
+        self.assertIn("position RMSE", with_truth)
+        self.assertNotIn("position RMSE", self.page("plain.html"))
         self.slamot("report", "out", "--truth", "nowhere", code=2, says=["nowhere"])
         self.run_with_page("bare", "--set", "output.report=false")
         self.assertFalse(self.path("bare/report.html").exists())
+
+    def test_a_truth_that_is_named_counts_for_metrics_too(self):
+        self.run_with_page()
+        wanted = self.summary()["metrics"]["robot"]["position"]["rmse"]
+        # As far away as no error is: everything is 1000 m off in x.
+        shutil.copytree(self.logs / "demo.truth", self.path("moved.truth"))
+        rows = self.path("moved.truth/robot.csv").read_text().split()
+        moved = [rows[0]] + [f"{t},{float(x) + 1000!r},{rest}" for t, x, rest in (row.split(",", 2) for row in rows[1:])]
+        self.write("moved.truth/robot.csv", "\n".join(moved) + "\n")
+        rmse = lambda page: float(re.search(r"position RMSE \[m\]</th><td[^>]*>([^ <]+)", self.page(page))[1])
+        self.assertAlmostEqual(rmse("out/report.html"), wanted, delta=1e-3 * wanted)  # four digits are shown
+        self.slamot("report", "out", "--truth", "moved.truth", "-o", "moved.html")
+        self.assertAlmostEqual(rmse("moved.html"), 1000, delta=5 * wanted)
+        self.slamot("compare", "out", "--truth", "moved.truth", "-o", "compared.html")
+        self.assertAlmostEqual(rmse("compared.html"), 1000, delta=5 * wanted)
+        self.slamot("compare", "out", "--truth", "nowhere", code=2, says=["nowhere"])
+        # The run's own, broken: the page comes without and says why.
+        summary = self.summary()
+        summary["truth"] = str(self.path("moved.truth"))
+        self.path("out/summary.json").write_text(json.dumps(summary))
+        self.write("moved.truth/robot.csv", "t,x\n")
+        self.slamot("report", "out")
+        self.assertIn("cannot be used any more", self.page())
 
     def test_a_log_with_a_strange_name_is_text(self):
         shutil.copy(self.logs / "demo.rawlog", self.path("<script>alert(1)</script>.rawlog".replace("/", "_")))
         self.slamot("-q", "run", EKF, "<script>alert(1)<_script>.rawlog", "-o", "out", "--set", "output.figure=false")
         self.assertNotIn("<script>alert", self.page())
+
+    def test_a_log_whose_name_is_no_utf8_has_its_page_and_picture(self):
+        name = os.fsdecode(b"drive_\xff.rawlog")
+        shutil.copy(self.logs / "demo.rawlog", self.path(name))
+        done = self.slamot("-q", "run", SOURCE / "config/runs/demo.ini", name, "-o", "out")
+        self.assertNotIn("no report", done.stderr)
+        self.assertIn("drive_\N{REPLACEMENT CHARACTER}", self.page())
+        self.assertIn("drive_\N{REPLACEMENT CHARACTER}", self.page("out/overview.vg.json"))
 
     def test_broken_and_foreign_folders_are_refused(self):
         self.slamot("report", "nowhere", code=2, says=["nowhere", "output folder of a run"])

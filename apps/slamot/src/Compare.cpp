@@ -9,12 +9,13 @@ namespace {
 
 struct Options {
     std::vector<std::string> runs;
-    std::string out = "comparison.html", pictures;
+    std::string out = "comparison.html", pictures, truth;
 };
 
 int compareJob(const Options& options, const Verbosity& verbosity) {
     std::vector<report::RunFolder> runs;
-    for (const std::string& folder : options.runs) runs.push_back(report::readRunFolder(folder));
+    for (const std::string& folder : options.runs)
+        runs.push_back(report::readRunFolder(folder, options.truth));
     const std::vector<report::RunGroup> groups = report::groupRuns(std::move(runs));
     const report::Page page = report::comparisonPage(groups);
     report::writePage(page, options.out);
@@ -32,6 +33,8 @@ void addCompare(CLI::App& app, Action& chosen) {
                            "are taken together.\nExample: slamot compare out/p1 out/p1_classic -o p1.html");
     auto options = std::make_shared<Options>();
     command->add_option("runs", options->runs, "Output folders of runs")->required();
+    command->add_option("--truth", options->truth,
+                        "Truth folder for all runs, metrics included; default: each run's; none: no truth");
     command->add_option("-o,--out", options->out, "Page to write")->capture_default_str();
     command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot");
     command->callback(

@@ -4,18 +4,20 @@
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/gui/keycodes.h>
-#include <mrpt/opengl/CEllipsoid2D.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/stock_objects.h>
+#include <mrpt/system/CObserver.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <thread>
 
 #include "Command.h"
+#include "slamot/run/MrptShapes.h"
 
 namespace slamot::app {
 namespace {
@@ -23,9 +25,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using mrpt::img::TColor;
 
-// Okabe and Ito's colours, as in figures.
-const TColor robot_colour(0, 114, 178), landmark_colour(0, 158, 115), sight_colour(86, 180, 233);
-const std::array track_colours{TColor(213, 94, 0), TColor(204, 121, 167), TColor(230, 159, 0)};
+namespace colour = run::shape_colour;
+using run::makeEllipse;
+using run::placeEllipse;
 
 /// Times real time; the last is as fast as can be.
 constexpr std::array<double, 8> speeds{1, 2, 5, 10, 20, 50, 100, 0};
@@ -47,25 +49,9 @@ bool hasDisplay() {
     return open && open(nullptr);
 }
 
-mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const TColor& colour) {
-    auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
-    ellipse->setQuantiles(3.0f);
-    ellipse->set2DsegmentsCount(30);
-    ellipse->setColor_u8(colour);
-    return ellipse;
-}
-
-void place(mrpt::opengl::CEllipsoid2D& ellipse, const Vector2& mean, const Matrix2& covariance) {
-    mrpt::math::CMatrixDouble22 c;
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) c(i, j) = covariance(i, j);
-    ellipse.setCovMatrix(c);
-    ellipse.setLocation(mean.x(), mean.y(), 0);
-}
-
-mrpt::opengl::CSetOfLines::Ptr makeLines(const TColor& colour, float width) {
+mrpt::opengl::CSetOfLines::Ptr makeLines(const TColor& line_colour, float width) {
     auto lines = mrpt::opengl::CSetOfLines::Create();
-    lines->setColor_u8(colour);
+    lines->setColor_u8(line_colour);
     lines->setLineWidth(width);
     return lines;
 }
@@ -77,6 +63,39 @@ void extend(mrpt::opengl::CSetOfLines& way, const Vector2& p) {
         way.appendLineStrip(p.x(), p.y(), 0.0);
 }
 
+/// MRPT's own thread would destroy the window that the run's thread draws in. So it only notes that the user
+/// wants it closed, and the run's thread closes it.
+class CloseRequest : public mrpt::system::CObserver {
+  public:
+    bool wanted() const { return wanted_; }
+    /// From now on the window may close.
+    void allow() { allowed_ = true; }
+
+  protected:
+    void OnEvent(const mrpt::system::mrptEvent& event) override {
+        if (allowed_ || !event.isOfType<mrpt::gui::mrptEventWindowClosed>()) return;
+        const auto* closed = event.getAs<mrpt::gui::mrptEventWindowClosed>();
+        const_cast<mrpt::gui::mrptEventWindowClosed*>(closed)->allow_close = false;  // MRPT's way to answer
+        wanted_ = true;
+    }
+
+  private:
+    std::atomic<bool> wanted_{false}, allowed_{false};
+};
+
+/// Adds the time of its life.
+class HeldBack {
+  public:
+    explicit HeldBack(double& seconds) : seconds_(seconds) {}
+    ~HeldBack() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+    HeldBack(const HeldBack&) = delete;
+    HeldBack& operator=(const HeldBack&) = delete;
+
+  private:
+    double& seconds_;
+    Clock::time_point begin_ = Clock::now();
+};
+
 }  // namespace
 
 struct LiveWindow::Impl {
@@ -86,12 +105,13 @@ struct LiveWindow::Impl {
     };
 
     const std::atomic<bool>& stop;
-    std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed by key
+    CloseRequest close_request;
+    std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed
     mrpt::opengl::CSetOfObjects::Ptr world = mrpt::opengl::CSetOfObjects::Create();
     mrpt::opengl::CSetOfObjects::Ptr robot = mrpt::opengl::stock_objects::RobotPioneer();
-    mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(robot_colour);
-    mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(robot_colour, 2.5f),
-                                   sight = makeLines(sight_colour, 1.0f);
+    mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(colour::robot);
+    mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(colour::robot, 2.5f),
+                                   sight = makeLines(colour::sight, 1.0f);
     std::map<TrackId, Track> tracks;
     std::map<LandmarkId, mrpt::opengl::CEllipsoid2D::Ptr> landmarks;
     std::map<LandmarkId, LandmarkEstimate> changed;  ///< since the last frame
@@ -99,7 +119,8 @@ struct LiveWindow::Impl {
     bool paused = false, single_step = false, follow = true, was_placed = false;
     Stamp start, paced_from;  ///< of the run; where the present speed began
     Clock::time_point paced_at = Clock::now(), last_frame{};
-    double reach = 10;  ///< how far one sees around the robot [m]
+    double held_back = 0;  ///< [s]
+    double reach = 10;     ///< how far one sees around the robot [m]
 
     Impl(const std::string& title, const std::atomic<bool>& stop_flag)
         : stop(stop_flag), window(std::make_unique<mrpt::gui::CDisplayWindow3D>(title, 1000, 800)) {
@@ -111,12 +132,22 @@ struct LiveWindow::Impl {
         scene->insert(world);
         scene->getViewport()->setCustomBackgroundColor({0.96f, 0.96f, 0.96f});
         window->unlockAccess3DScene();
+        close_request.observeBegin(*window);
         window->setCameraProjective(false);
         window->setCameraElevationDeg(90);
         window->setCameraAzimuthDeg(-90);
     }
 
-    bool open() const { return window && window->isOpen(); }
+    /// For the run's thread alone, which closes the window here where it was asked to.
+    bool open() {
+        if (window && close_request.wanted()) close();
+        return window != nullptr;
+    }
+
+    void close() {
+        close_request.allow();
+        window.reset();
+    }
 
     void pace(Stamp now) {
         paced_from = now;
@@ -137,7 +168,7 @@ struct LiveWindow::Impl {
             if (key == ' ') paused = !paused;
             if (key == 'S') paused = single_step = true;
             if (key == 'F') follow = !follow;
-            if (key == 'Q') window.reset();
+            if (key == 'Q') close();
             if (faster || slower || key == ' ') pace(now);
         }
         return any;
@@ -146,6 +177,7 @@ struct LiveWindow::Impl {
     /// Holds the run back to the chosen speed, and while it is paused.
     void waitFor(const Estimate& estimate) {
         const Stamp now = estimate.stamp;
+        const HeldBack timing(held_back);
         while (open() && !stop) {
             if (takeKeys(now) && open()) show(estimate);
             if (single_step) {
@@ -165,7 +197,7 @@ struct LiveWindow::Impl {
         sight->clear();
         const Pose2& pose = step.estimate.robot.mean;
         for (const RangeBearingSensor& sensor : step.detections.rangeBearing().sensors) {
-            if (!(sensor.max_range > 0)) continue;
+            if (!(sensor.max_range > 0) || !std::isfinite(sensor.max_range)) continue;
             reach = std::max(reach, 1.2 * sensor.max_range);
             constexpr int pieces = 40;
             const Vector2 at = pose * sensor.pose.position();
@@ -192,9 +224,9 @@ struct LiveWindow::Impl {
             const auto [found, is_new] = tracks.try_emplace(t.id);
             Track& track = found->second;
             if (is_new) {
-                const TColor& colour =
-                    track_colours[static_cast<std::size_t>(t.id.value) % track_colours.size()];
-                track = {makeLines(colour, 2.0f), makeEllipse(colour)};
+                const TColor& of_track =
+                    colour::tracks[static_cast<std::size_t>(t.id.value) % colour::tracks.size()];
+                track = {makeLines(of_track, 2.0f), makeEllipse(of_track)};
                 world->insert(track.way);
                 world->insert(track.ellipse);
             }
@@ -203,7 +235,7 @@ struct LiveWindow::Impl {
     }
 
     void drawRobot(const PoseGaussian& pose) {
-        place(*robot_ellipse, pose.mean.position(), pose.covariance.topLeftCorner<2, 2>());
+        placeEllipse(*robot_ellipse, pose.mean.position(), pose.covariance.topLeftCorner<2, 2>());
         robot->setScale(static_cast<float>(std::max(1.0, reach / 20)));  // to be seen
         robot->setPose(mrpt::poses::CPose3D(pose.mean.x, pose.mean.y, 0, pose.mean.theta, 0, 0));
     }
@@ -212,7 +244,7 @@ struct LiveWindow::Impl {
         for (auto& [id, track] : tracks) track.ellipse->setVisibility(false);
         for (const TrackEstimate& t : estimate.tracks) {
             const Track& track = tracks.at(t.id);
-            place(*track.ellipse, t.mean.head<2>(), t.covariance.topLeftCorner<2, 2>());
+            placeEllipse(*track.ellipse, t.mean.head<2>(), t.covariance.topLeftCorner<2, 2>());
             track.ellipse->setVisibility(true);
         }
     }
@@ -221,10 +253,10 @@ struct LiveWindow::Impl {
         for (const auto& [id, landmark] : changed) {
             auto& ellipse = landmarks[id];
             if (!ellipse) {
-                ellipse = makeEllipse(landmark_colour);
+                ellipse = makeEllipse(colour::landmark);
                 world->insert(ellipse);
             }
-            place(*ellipse, landmark.mean, landmark.covariance);
+            placeEllipse(*ellipse, landmark.mean, landmark.covariance);
         }
         changed.clear();
     }
@@ -258,7 +290,13 @@ LiveWindow::LiveWindow(const std::string& title, const std::atomic<bool>& stop) 
     impl_ = std::make_unique<Impl>(title, stop);
 }
 
-LiveWindow::~LiveWindow() = default;
+LiveWindow::~LiveWindow() {
+    if (impl_->window) impl_->close();
+}
+
+double LiveWindow::heldBack() const {
+    return impl_->held_back;
+}
 
 void LiveWindow::step(const run::Step& step) {
     Impl& live = *impl_;

@@ -17,6 +17,7 @@ class LiveWindow : public run::Sink {
     ~LiveWindow() override;
     void step(const run::Step& step) override;
     void end(const run::RunEnd& end) override;
+    double heldBack() const override;
     /// Returns once the window is closed or `stop` is set.
     void waitUntilClosed();
 

@@ -32,7 +32,8 @@ void addReport(CLI::App& app, Action& chosen) {
                            "slamot report out/ --pictures out/pictures");
     auto options = std::make_shared<Options>();
     command->add_option("run", options->run, "Output folder of a run")->required();
-    command->add_option("--truth", options->truth, "Truth folder; default: the run's; none: no truth");
+    command->add_option("--truth", options->truth,
+                        "Truth folder, for metrics too; default: the run's; none: no truth");
     command->add_option("-o,--out", options->out, "Page to write; default: report.html in the run's folder");
     command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot");
     command->callback(

@@ -31,12 +31,12 @@ std::string truthFolder(const Options& options) {
 }
 
 void writeOverview(const run::JobResult& result, const Truth* truth, const Options& options) {
-    report::OverviewText text;
-    text.title = fmt::format("{} on {}", result.summary["estimator"].get<std::string>(),
-                             std::filesystem::path(options.log).filename().string());
     try {
+        report::OverviewText text;
+        text.title = fmt::format("{} on {}", result.summary["estimator"].get<std::string>(),
+                                 std::filesystem::path(options.log).filename().string());
         report::writeFigure(report::overviewFigure(result.record, truth, text), options.out + "/overview");
-    } catch (const report::ReportError& error) {
+    } catch (const std::exception& error) {  // whatever it is, the run itself is done
         fmt::print(stderr, "slamot: no overview picture: {}\n", error.what());
     }
 }

@@ -9,6 +9,10 @@
 
 namespace slamot::eval {
 
+bool countsForNis(const Innovation& innovation) {
+    return std::isfinite(innovation.nis) && innovation.outcome != Outcome::tentative;
+}
+
 Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& innovations,
                                             double probability) {
     if (innovations.empty()) return Measured<std::vector<NisGroup>>::absent("the run has no innovations");
@@ -23,9 +27,7 @@ Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& in
     for (const InnovationRow& row : innovations) {
         Collected& group = groups[{row.sensor, row.innovation.kind}];
         ++group.outcomes[row.innovation.outcome];
-        // Tentative ones are measured against what is not part of the estimate.
-        if (std::isfinite(row.innovation.nis) && row.innovation.outcome != Outcome::tentative)
-            group.values.push_back(row.innovation.nis);
+        if (countsForNis(row.innovation)) group.values.push_back(row.innovation.nis);
     }
 
     ChiSquareTable table(probability);

@@ -3,6 +3,8 @@
 #include <set>
 #include <utility>
 
+#include "slamot/eval/BestTrack.h"
+
 namespace slamot::eval {
 namespace {
 
@@ -67,8 +69,7 @@ std::map<SourceId, const TrackEstimate*> tracksByTarget(const std::vector<TrackE
         if (is_new) continue;
         ++counts.doubled;
         const TrackEstimate*& best = place->second;
-        if (track.existence > best->existence || (track.existence == best->existence && track.id < best->id))
-            best = &track;
+        if (countsBefore(track, *best)) best = &track;
     }
     return by_target;
 }

@@ -58,11 +58,16 @@ class Plot {
     const marks = this.source.usermeta.symbols;
     const many = 4000;  // more elements than this make an SVG slow
     this.view = new vega.View(vega.parse(spec), {renderer: marks > many ? 'canvas' : 'svg', hover: false});
-    // Vega gives its element a role of its own; the figure's is `img`, with words for what is seen.
+    // Vega gives its element a role of its own. Words for what is seen are the figure's; where that takes keys it is a
+    // group, and the picture within it has the words.
     const place = document.createElement('div');
     this.canvas.replaceChildren(place);
     this.view.initialize(place).run();
     for (const name of ['role', 'aria-roledescription', 'aria-label']) place.removeAttribute(name);
+    if (this.canvas.getAttribute('role') === 'group') {
+      place.setAttribute('role', 'img');
+      place.setAttribute('aria-label', this.canvas.getAttribute('aria-label'));
+    }
     this.element.dataset.shown = 'true';
   }
 
@@ -95,12 +100,24 @@ class Plot {
     return null;
   }
 
+  /** Whether two panels are courses over one span. */
+  goTogether(panel, other) {
+    return !panel.equal && !other.equal && String(panel.x.domain) === String(other.x.domain);
+  }
+
+  /** The first of all panels that move together, for each that can be moved. */
+  leaders() {
+    const moving = this.panels.map((panel, index) => ({panel, index})).filter(({panel}) => panel.x.moves);
+    return moving.filter(({panel}, i) => !moving.slice(0, i).some((before) => this.goTogether(panel, before.panel)))
+        .map(({index}) => index);
+  }
+
   /** Gives a panel other ends of its axes. Panels of one time span move together. */
   move(index, change) {
     const moved = this.panels[index];
     this.panels.forEach((panel, i) => {
       for (const axis of ['x', 'y']) {
-        const together = axis === 'x' && String(panel.x.domain) === String(moved.x.domain);
+        const together = axis === 'x' && this.goTogether(panel, moved);
         if (!panel[axis].moves || (i !== index && !together)) continue;
         this.domains[i][axis] = change(this.domains[i][axis], axis, panel);
         if (this.view) this.view.signal(`${axis}_${i}`, this.domains[i][axis]);

@@ -35,11 +35,7 @@ class PlotTools {
     this.readout = plot.element.querySelector('.readout');
     const bar = plot.element.querySelector('.tools');
     if (plot.panels.some((panel) => panel.x.moves)) {
-      const middle = {right: 0.5, up: 0.5};
-      const zoomAll = (factor) => plot.panels.some((panel, index) => {
-        plot.zoom(factor, {index, ...middle});
-        return !panel.equal;  // panels of one time span moved together
-      });
+      const zoomAll = (factor) => this.zoomAll(factor);
       bar.append(button('+', 'Zoom in', () => zoomAll(0.8)), button('−', 'Zoom out', () => zoomAll(1.25)),
                  button('Reset', 'Show all again', () => plot.reset()));
       this.listen();
@@ -79,7 +75,9 @@ class PlotTools {
     canvas.addEventListener('pointermove', (event) => this.drag(event));
     canvas.addEventListener('pointerup', () => { this.held = null; });
     canvas.addEventListener('pointerleave', () => { this.readout.textContent = ''; });
+    canvas.addEventListener('pointercancel', () => { this.held = null; });
     canvas.addEventListener('keydown', (event) => this.key(event));
+    canvas.addEventListener('blur', () => { if (this.mark) this.mark.remove(); });
   }
 
   /** Only where the reader has chosen the figure: the wheel is for the page otherwise. */
@@ -105,21 +103,57 @@ class PlotTools {
     }
   }
 
+  /** About the middle, every panel whose x axis can be moved. */
+  zoomAll(factor) {
+    for (const index of this.plot.leaders()) this.plot.zoom(factor, {index, right: 0.5, up: 0.5});
+  }
+
+  panAll(right, up) {
+    for (const index of this.plot.leaders()) this.plot.pan(index, right, up);
+  }
+
+  /** Arrows read values of courses; with Shift, and on maps always, they move the axes. */
   key(event) {
-    const step = 0.1, {plot} = this;
-    const actions = {
-      '+': () => plot.zoom(0.8, {index: 0, right: 0.5, up: 0.5}),
-      '-': () => plot.zoom(1.25, {index: 0, right: 0.5, up: 0.5}),
-      '0': () => plot.reset(),
-      ArrowLeft: () => plot.pan(0, -step, 0),
-      ArrowRight: () => plot.pan(0, step, 0),
-      ArrowUp: () => plot.pan(0, 0, step),
-      ArrowDown: () => plot.pan(0, 0, -step),
-    };
-    const vertical = event.key === 'ArrowUp' || event.key === 'ArrowDown';
-    if (!actions[event.key] || event.ctrlKey || (vertical && !plot.panels[0].equal)) return;
+    const {plot} = this, map = plot.panels[0].equal, arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1],
+                                                                ArrowDown: [0, -1]};
+    const others = {'+': () => this.zoomAll(0.8), '-': () => this.zoomAll(1.25), '0': () => plot.reset()};
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const arrow = arrows[event.key];
+    if (!arrow && !others[event.key]) return;
     event.preventDefault();
-    actions[event.key]();
+    if (!arrow) others[event.key]();
+    else if (map || event.shiftKey) this.panAll(0.1 * arrow[0], map ? 0.1 * arrow[1] : 0);
+    else this.readOn(...arrow);
+  }
+
+  /** The next place of the cursor along x, or the panel above or below; said in words, and moved along where the cursor
+      leaves what is shown. */
+  readOn(right, up) {
+    const {plot} = this, last = plot.panels.length - 1;
+    const at = this.cursor || {index: 0, right: 0.5, up: 0.5};
+    if (this.cursor) {
+      at.index = Math.min(Math.max(at.index - up, 0), last);
+      at.right += right * 0.02;
+      const beyond = at.right < 0 ? at.right : Math.max(at.right - 1, 0);
+      if (beyond !== 0 && plot.panels[at.index].x.moves) plot.pan(at.index, beyond, 0);
+      at.right = Math.min(Math.max(at.right, 0), 1);
+    }
+    this.cursor = at;
+    const panel = plot.panels[at.index];
+    this.readout.textContent = (last > 0 ? `${panel.y.title}: ` : '') + this.valuesAt(at);
+    this.showCursor(panel, at.right);
+  }
+
+  showCursor(panel, right) {
+    const {canvas, source} = this.plot;
+    if (!this.mark) {
+      this.mark = document.createElement('div');
+      this.mark.className = 'cursor';
+    }
+    const part = (length, whole) => `${100 * length / whole}%`;
+    Object.assign(this.mark.style, {left: part(panel.left + right * panel.width, source.width),
+                                    top: part(panel.top, source.height), height: part(panel.height, source.height)});
+    canvas.append(this.mark);
   }
 
   valuesAt({index, right, up}) {

@@ -4,7 +4,11 @@ class Replay {
   constructor(element) {
     this.element = element;
     this.data = JSON.parse(element.querySelector('script.data').textContent);
+    for (const {id, data} of this.data.layers) {
+      if (id === 'robot' || id === 'tracks' || id === 'landmarks') this.data[id] = data;  // other layers ask for them
+    }
     this.canvas = element.querySelector('canvas');
+    this.stage = element.querySelector('.stage');
     this.slider = element.querySelector('input[type=range]');
     this.playButton = element.querySelector('.play');
     this.speed = element.querySelector('.speed');
@@ -31,15 +35,18 @@ class Replay {
     this.element.querySelectorAll('input[type=checkbox]').forEach(
         (box) => box.addEventListener('change', () => this.draw()));
     this.element.querySelector('.whole').addEventListener('click', () => this.whole());
-    this.canvas.addEventListener('keydown', (event) => this.key(event));
+    this.stage.addEventListener('keydown', (event) => this.key(event));
     this.canvas.addEventListener('wheel', (event) => {
-      if (!event.ctrlKey && document.activeElement !== this.canvas) return;
+      if (!event.ctrlKey && document.activeElement !== this.stage) return;
       event.preventDefault();
       this.enlarge(Math.exp(-0.002 * event.deltaY));
     }, {passive: false});
-    this.canvas.addEventListener('pointerdown', (event) => { this.held = [event.clientX, event.clientY]; });
+    this.canvas.addEventListener('pointerdown', (event) => {
+      this.held = [event.clientX, event.clientY];
+      this.canvas.setPointerCapture(event.pointerId);
+    });
     this.canvas.addEventListener('pointermove', (event) => this.drag(event));
-    this.canvas.addEventListener('pointerup', () => { this.held = null; });
+    for (const end of ['pointerup', 'pointercancel']) this.canvas.addEventListener(end, () => { this.held = null; });
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
@@ -141,8 +148,10 @@ class Replay {
     return rows;
   }
 
+  /** Whether a layer's box is checked; one without a box is always shown. */
   wants(layer) {
-    return this.element.querySelector(`input[value=${layer}]`).checked;
+    const box = this.element.querySelector(`input[type=checkbox][value=${layer}]`);
+    return !box || box.checked;
   }
 
   scale() {
@@ -153,6 +162,8 @@ class Replay {
   draw() {
     const box = this.canvas.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
     if (box.width === 0) return;
+    this.box = box;
+    this.themeKey();
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
     if (this.wants('follow')) this.middle = [this.data.robot.x[this.frame], this.data.robot.y[this.frame]];
@@ -162,17 +173,24 @@ class Replay {
     this.toX = (x) => (x - this.middle[0]) * scale + box.width / 2;
     this.toY = (y) => (this.middle[1] - y) * scale + box.height / 2;
     this.pixels = scale;
-    this.drawTruth();
-    if (this.wants('sight')) this.drawSight();
-    this.drawLandmarks();
-    this.drawTracks();
-    this.drawRobot();
+    for (const {id, data} of this.data.layers) {
+      if (this.wants(id)) replayLayers[id](this, data);
+    }
     this.drawScaleBar(box);
+  }
+
+  /** The colours of the list of what is drawn. */
+  themeKey() {
+    for (const part of this.element.querySelectorAll('.key [data-colour]')) {
+      for (const name of ['fill', 'stroke']) {
+        if (part.hasAttribute(name)) part.setAttribute(name, theme.colourOf(part.dataset.colour));
+      }
+    }
   }
 
   line(xs, ys, from, to, colour, width, opacity = 1) {
     const c = this.context;
-    c.strokeStyle = theme.themed(colour);
+    c.strokeStyle = theme.colourOf(colour);
     c.lineWidth = width;
     c.globalAlpha = opacity;
     c.beginPath();
@@ -193,131 +211,12 @@ class Replay {
     c.ellipse(cx, cy, a * this.pixels, b * this.pixels, -angle, 0, 2 * Math.PI);
   }
 
-  drawTruth() {
-    if (!this.wants('truth')) return;
-    const {truth, targets, trueLandmarks, colours} = this.data, c = this.context;
-    c.strokeStyle = theme.themed(colours.trueLandmark);
-    c.lineWidth = 1;
-    c.beginPath();
-    trueLandmarks.x.forEach((x, i) => {
-      const px = this.toX(x), py = this.toY(trueLandmarks.y[i]);
-      if (px < 0 || py < 0 || px > this.canvas.width || py > this.canvas.height) return;
-      c.moveTo(px - 3, py - 3); c.lineTo(px + 3, py + 3);
-      c.moveTo(px - 3, py + 3); c.lineTo(px + 3, py - 3);
-    });
-    c.stroke();
-    if (truth) this.line(truth.x, truth.y, 0, this.frame + 1, colours.robot, 5, 0.35);
-    for (const target of targets) this.line(target.x, target.y, 0, this.frame + 1, target.colour, 5, 0.35);
-  }
-
-  /** The sensors' fields of view, and lines to what was seen. */
-  drawSight() {
-    const {robot, sensors, seen, tracks, landmarks, colours} = this.data, c = this.context, i = this.frame;
-    const [x, y, heading] = [robot.x[i], robot.y[i], robot.theta[i]];
-    for (const sensor of sensors) {
-      if (!(sensor.range > 0)) continue;
-      const sx = x + sensor.x * Math.cos(heading) - sensor.y * Math.sin(heading);
-      const sy = y + sensor.x * Math.sin(heading) + sensor.y * Math.cos(heading);
-      const middle = -(heading + sensor.theta), whole = sensor.view > 6.28;
-      c.beginPath();
-      if (!whole) c.moveTo(this.toX(sx), this.toY(sy));
-      c.arc(this.toX(sx), this.toY(sy), sensor.range * this.pixels, middle - sensor.view / 2, middle + sensor.view / 2);
-      c.closePath();
-      c.fillStyle = c.strokeStyle = theme.themed(colours.sight);
-      c.globalAlpha = 0.1;
-      c.fill();
-      c.globalAlpha = 0.6;
-      c.lineWidth = 1;
-      c.stroke();
-    }
-    c.strokeStyle = theme.themed(colours.sight);
-    c.globalAlpha = 0.7;
-    c.beginPath();
-    const known = new Map(this.knownLandmarks().map((row) => [landmarks.index[row], row]));
-    for (const thing of seen[i] || []) {
-      const row = known.get(thing), track = tracks[-1 - thing];
-      const tx = track ? track.x[i - track.from] : landmarks.x[row];
-      const ty = track ? track.y[i - track.from] : landmarks.y[row];
-      if (tx === undefined || tx === null) continue;
-      c.moveTo(this.toX(x), this.toY(y));
-      c.lineTo(this.toX(tx), this.toY(ty));
-    }
-    c.stroke();
-    c.globalAlpha = 1;
-  }
-
-  drawLandmarks() {
-    const {landmarks, colours} = this.data, c = this.context, rows = this.knownLandmarks();
-    c.fillStyle = c.strokeStyle = theme.themed(colours.landmark);
-    for (const row of rows) {
-      c.fillRect(this.toX(landmarks.x[row]) - 1.5, this.toY(landmarks.y[row]) - 1.5, 3, 3);
-    }
-    if (!this.wants('ellipses')) return;
-    c.lineWidth = 0.8;
-    c.globalAlpha = 0.6;
-    c.beginPath();
-    for (const row of rows) {
-      if (landmarks.a[row] * this.pixels < 1.5) continue;  // beneath the mark
-      this.ellipse(landmarks.x[row], landmarks.y[row], landmarks.a[row], landmarks.b[row], landmarks.angle[row]);
-    }
-    c.stroke();
-    c.globalAlpha = 1;
-  }
-
-  drawTracks() {
-    const c = this.context;
-    for (const track of this.data.tracks) {
-      const k = this.frame - track.from;
-      if (k < 0) continue;
-      this.line(track.x, track.y, 0, k + 1, track.colour, 1.6);
-      if (track.x[k] === undefined || track.x[k] === null) continue;
-      const mode = this.data.modes.length > 1 ? this.data.modes[track.mode[k]] : null;
-      c.fillStyle = c.strokeStyle = theme.themed(mode ? mode.colour : track.colour);
-      if (this.wants('ellipses')) {
-        c.lineWidth = 1.2;
-        c.beginPath();
-        this.ellipse(track.x[k], track.y[k], track.a[k], track.b[k], track.angle[k]);
-        c.stroke();
-      }
-      const px = this.toX(track.x[k]), py = this.toY(track.y[k]);
-      c.beginPath();
-      c.arc(px, py, 5, 0, 2 * Math.PI);
-      c.fill();
-      c.fillStyle = theme.themed('#222222');
-      c.font = '12px sans-serif';
-      c.fillText(mode ? `${track.name}: ${mode.name}` : track.name, px + 9, py - 7);
-    }
-  }
-
-  drawRobot() {
-    const {robot, colours} = this.data, c = this.context, i = this.frame;
-    this.line(robot.x, robot.y, 0, i + 1, colours.robot, 1.6);
-    c.strokeStyle = c.fillStyle = theme.themed(colours.robot);
-    if (this.wants('ellipses')) {
-      c.lineWidth = 1.2;
-      c.beginPath();
-      this.ellipse(robot.x[i], robot.y[i], robot.a[i], robot.b[i], robot.angle[i]);
-      c.stroke();
-    }
-    const px = this.toX(robot.x[i]), py = this.toY(robot.y[i]), size = 11;
-    c.beginPath();
-    for (const [turn, reach] of [[0, 1], [2.5, 0.8], [Math.PI, 0.35], [-2.5, 0.8]]) {
-      const angle = -(robot.theta[i] + turn);
-      c.lineTo(px + size * reach * Math.cos(angle), py + size * reach * Math.sin(angle));
-    }
-    c.closePath();
-    c.fill();
-    c.strokeStyle = theme.colour('background');
-    c.lineWidth = 1;
-    c.stroke();
-  }
-
   /** A round number of metres, about a sixth of the picture. */
   drawScaleBar(box) {
     const wanted = box.width / 6 / this.pixels, power = Math.pow(10, Math.floor(Math.log10(wanted)));
     const length = power * (wanted >= 5 * power ? 5 : wanted >= 2 * power ? 2 : 1), c = this.context;
     const y = box.height - 14, x = 14;
-    c.strokeStyle = c.fillStyle = theme.themed('#222222');
+    c.strokeStyle = c.fillStyle = theme.colourOf('#222222');
     c.lineWidth = 1.5;
     c.beginPath();
     c.moveTo(x, y - 4); c.lineTo(x, y); c.lineTo(x + length * this.pixels, y); c.lineTo(x + length * this.pixels, y - 4);

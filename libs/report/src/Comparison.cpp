@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <sstream>
 
+#include "ConfigLines.h"
 #include "MetricRows.h"
 
 namespace slamot::report {
@@ -20,16 +20,15 @@ std::string folderName(const RunFolder& run) {
     return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
 }
 
-/// The settings without the seed.
+/// The settings without seeds.
 std::string settingsOf(const RunFolder& run) {
-    std::istringstream in(run.text("config"));
-    std::string line, section, settings;
-    while (std::getline(in, line)) {
-        section = !line.empty() && line.front() == '[' ? line : section;
-        if (section != "[run]" || line.rfind("seed =", 0) != 0) {
-            settings += line + "\n";
-        }
-    }
+    std::string settings;
+    forEachConfigLine(run.text("config"),
+                      [&](const std::string& section, const std::string& key, const std::string& line) {
+                          if (key != "seed" || (section != "run" && section != "clutter")) {
+                              settings += line + "\n";
+                          }
+                      });
     return settings;
 }
 
@@ -47,6 +46,10 @@ std::string commonName(const std::vector<RunFolder>& runs) {
     return common.empty() ? runs.front().text("estimator") : common;
 }
 
+bool isComplete(const RunFolder& run) {
+    return run.text("status") == "complete";
+}
+
 GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
     std::vector<double> values;
     for (const RunFolder& run : group.runs) {
@@ -56,6 +59,8 @@ GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
     }
     GroupValue result;
     result.count = values.size();
+    result.of = group.runs.size();
+    result.contests = result.count == result.of && completeRuns(group) == result.of;
     const auto n = static_cast<double>(values.size());
     result.half_width = std::numeric_limits<double>::quiet_NaN();
     for (const double value : values) {
@@ -74,19 +79,32 @@ GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
 
 void markBest(const MetricRow& row, std::vector<GroupValue>& values) {
     const auto beats = [&](const GroupValue& a, const GroupValue& b) {
-        return a.count > 0 && b.count > 0 && isBetter(row, a.mean, b.mean);
+        return a.contests && b.contests && isBetter(row, a.mean, b.mean);
     };
     const bool differ = std::any_of(values.begin(), values.end(), [&](const GroupValue& a) {
         return std::any_of(values.begin(), values.end(), [&](const GroupValue& b) { return beats(a, b); });
     });
     for (GroupValue& value : values) {
-        value.best = differ && value.count > 0 &&
+        value.best = differ && value.contests &&
                      std::none_of(values.begin(), values.end(),
                                   [&](const GroupValue& other) { return beats(other, value); });
     }
 }
 
 }  // namespace
+
+std::size_t completeRuns(const RunGroup& group) {
+    return static_cast<std::size_t>(std::count_if(group.runs.begin(), group.runs.end(), isComplete));
+}
+
+std::string statusOf(const RunGroup& group) {
+    const std::size_t complete = completeRuns(group), all = group.runs.size();
+    if (complete == all) {
+        return "complete";
+    }
+    const std::string one = group.runs.front().text("status");
+    return all > 1 ? fmt::format("{} of {} complete", complete, all) : one.empty() ? "not known" : one;
+}
 
 std::vector<RunGroup> groupRuns(std::vector<RunFolder> runs) {
     std::vector<RunGroup> groups;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "MetricRows.h"
+#include "TrueOrigin.h"
 #include "sections/Courses.h"
 #include "slamot/eval/Metrics.h"
 #include "slamot/report/Comparison.h"
@@ -26,6 +27,11 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         const std::size_t count = group.runs.size();
         table.columns.push_back({count > 1 ? fmt::format("{}, {} runs", group.name, count) : group.name});
     }
+    TableRow status{{{"status"}}};
+    for (const RunGroup& group : groups) {
+        status.cells.push_back({statusOf(group)});
+    }
+    table.rows.push_back(std::move(status));
     std::string heading;
     for (const ComparedMetric& metric : compareMetrics(groups)) {
         if (metric.group != heading) {
@@ -38,16 +44,21 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
             if (value.count > 1) {
                 text += fmt::format(" ± {:.2g}", value.half_width);
             }
+            if (value.count > 0 && value.count < value.of) {
+                text += fmt::format(" ({} of {} runs)", value.count, value.of);
+            }
             row.cells.push_back({text, value.best});
         }
         table.rows.push_back(std::move(row));
     }
-    PageSection section{"metrics",
-                        "Metrics",
-                        "The best of each row is marked. With several runs: their mean and its 95 % interval "
-                        "(Student's t). Where "
-                        "intervals overlap the difference may be chance.",
-                        {table}};
+    PageSection section{
+        "metrics",
+        "Metrics",
+        "The best of each row is marked. With several runs: their mean and its 95 % interval "
+        "(Student's t). Where "
+        "intervals overlap the difference may be chance. Runs that did not come to the end of "
+        "their log, or of which one lacks the value, are never the best.",
+        {table}};
     const bool same = std::all_of(groups.begin(), groups.end(),
                                   [&](const RunGroup& g) { return logsOf(g) == logsOf(groups.front()); });
     if (!same) {
@@ -170,7 +181,8 @@ Panel waysPanel(const std::vector<RunGroup>& groups) {
         if (const RunFolder& run = group.runs.front(); !run.pairs.empty()) {
             Line truth{"true way", {}, colour::grey, 5, Dash::solid, 0.35};
             for (const eval::PosePair& pair : run.pairs) {
-                truth.points.push_back(pair.truth.position());
+                truth.points.push_back(
+                    trueOrigin(pair.truth.position(), run.truth->point, pair.estimate.mean.theta));
             }
             panel.layers.push_back(std::move(truth));
             break;
@@ -213,14 +225,16 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
               landmarkCount);
     addCourse(page, groups, "step-time", "Step time", "Median within a hundredth of the run.",
               coursePanel("Time of a step", "ms", true), stepTime);
-    PageTable table{"Runs", {{"folder", false}, {"estimator", false}, {"log", false}, {"seed"}}, {}};
+    PageTable table{
+        "Runs", {{"folder", false}, {"status", false}, {"estimator", false}, {"log", false}, {"seed"}}, {}};
     for (const RunGroup& group : groups) {
         table.rows.push_back({{{group.name}}, true});
         for (const RunFolder& run : group.runs) {
             table.rows.push_back({{{run.folder},
+                                   {run.text("status")},
                                    {run.text("estimator")},
                                    {run.text("log")},
-                                   {fmt::format("{:.0f}", run.number("seed").value_or(0))}}});
+                                   {run.digits("seed")}}});
         }
     }
     PageSection configurations{"runs", "What was compared", "", {table}};

@@ -10,57 +10,88 @@
 namespace slamot::report {
 namespace {
 
-constexpr std::size_t name_width = 32, column_width = 16, columns = 3;  // 32 + 3 * 16 = 80
+constexpr std::size_t all_columns = 80, name_width = 32, usual_width = 16;  // 32 + 3 * 16 = 80
 
 /// Three significant digits where there is an interval, so that both fit.
 std::string cell(const GroupValue& value) {
     if (value.count == 0) {
-        return "-";
+        return "- ";
     }
-    const std::string text = std::isfinite(value.half_width)
-                                 ? fmt::format("{:.3g}+-{:.2g}", value.mean, value.half_width)
-                                 : fmt::format("{:.4g}", value.mean);
-    return value.best ? text + "*" : text + " ";
+    std::string text = std::isfinite(value.half_width)
+                           ? fmt::format("{:.3g}+-{:.2g}", value.mean, value.half_width)
+                           : fmt::format("{:.4g}", value.mean);
+    if (value.count < value.of) {
+        text += fmt::format(" n={}", value.count);
+    }
+    return text + (value.best ? "*" : " ");
 }
 
-/// The end of a long text: names of runs differ there.
-std::string fitted(const std::string& text, std::size_t width) {
-    return text.size() <= width ? text : ".." + text.substr(text.size() - width + 2);
+std::string left(const std::string& text, std::size_t width) {
+    return text + std::string(width - std::min(width, codePoints(text)), ' ');
+}
+
+std::string right(const std::string& text, std::size_t width) {
+    return std::string(width - std::min(width, codePoints(text)), ' ') + text;
+}
+
+/// The groups of one block side by side.
+struct Block {
+    std::size_t first, end, width;
+
+    template <class CellOf>
+    std::string line(const std::string& name, CellOf cell_of) const {
+        std::string text = left(name, name_width);
+        for (std::size_t g = first; g < end; ++g) {
+            text += right(cell_of(g), width);
+        }
+        return text + "\n";
+    }
+};
+
+std::string blockText(const Block& block, const std::vector<RunGroup>& groups,
+                      const std::vector<ComparedMetric>& metrics) {
+    std::string text = block.line(
+        "", [&](std::size_t g) { return lastCodePoints(groups[g].name, block.width - 2, "..") + " "; });
+    text += block.line("runs", [&](std::size_t g) { return fmt::format("{} ", groups[g].runs.size()); });
+    text += block.line("status", [&](std::size_t g) { return statusOf(groups[g]) + " "; });
+    std::string heading;
+    for (const ComparedMetric& metric : metrics) {
+        if (metric.group != heading) {
+            heading = metric.group;
+            text += heading + "\n";
+        }
+        text += block.line("  " + metric.heading, [&](std::size_t g) { return cell(metric.values[g]); });
+    }
+    return text;
 }
 
 }  // namespace
 
 std::string comparisonText(const std::vector<RunGroup>& groups) {
     const std::vector<ComparedMetric> metrics = compareMetrics(groups);
-    std::string text;
-    for (std::size_t first = 0; first < groups.size(); first += columns) {
-        const std::size_t end = std::min(first + columns, groups.size());
-        text += first > 0 ? "\n" : "";
-        text += fmt::format("{:{}}", "", name_width);
-        for (std::size_t g = first; g < end; ++g) {
-            text += fmt::format("{:>{}} ", fitted(groups[g].name, column_width - 2), column_width - 1);
-        }
-        text += fmt::format("\n{:{}}", "runs", name_width);
-        for (std::size_t g = first; g < end; ++g) {
-            text += fmt::format("{:>{}} ", groups[g].runs.size(), column_width - 1);
-        }
-        text += "\n";
-        std::string group;
-        for (const ComparedMetric& metric : metrics) {
-            if (metric.group != group) {
-                group = metric.group;
-                text += group + "\n";
-            }
-            // The degree sign has two bytes and one column.
-            const std::size_t extra = metric.heading.find("°") != std::string::npos ? 1 : 0;
-            text += fmt::format("  {:{}}", metric.heading, name_width - 2 + extra);
-            for (std::size_t g = first; g < end; ++g) {
-                text += fmt::format("{:>{}}", cell(metric.values[g]), column_width);
-            }
-            text += "\n";
+    // Long numbers take columns from their neighbours: fewer groups stand side by side.
+    std::size_t width = usual_width;
+    bool some_lack_it = false, some_broke_off = false;
+    for (const RunGroup& group : groups) {
+        width = std::max(width, 2 + statusOf(group).size());
+        some_broke_off = some_broke_off || completeRuns(group) < group.runs.size();
+    }
+    for (const ComparedMetric& metric : metrics) {
+        for (const GroupValue& value : metric.values) {
+            width = std::max(width, 1 + cell(value).size());
+            some_lack_it = some_lack_it || (value.count > 0 && value.count < value.of);
         }
     }
-    return text + "* the best of its row; where intervals (95 %) overlap that may be chance\n";
+    const std::size_t columns = std::max<std::size_t>(1, (all_columns - name_width) / width);
+    std::string text;
+    for (std::size_t first = 0; first < groups.size(); first += columns) {
+        text += first > 0 ? "\n" : "";
+        text += blockText({first, std::min(first + columns, groups.size()), width}, groups, metrics);
+    }
+    text += "* the best of its row; where intervals (95 %) overlap that may be chance\n";
+    text += some_broke_off ? "  runs that did not come to the end of their log are never the best\n" : "";
+    text += some_lack_it ? "  n: runs with a value, where not all of a column have one\n" : "";
+    return text;
 }
 
 }  // namespace slamot::report

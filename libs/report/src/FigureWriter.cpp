@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "ChildProcess.h"
+#include "JsonText.h"
 #include "SvgPaths.h"
 #include "slamot/rawlog/PartFile.h"
 #include "slamot/report/FigureSpec.h"
@@ -122,7 +123,7 @@ void writeFigure(const Figure& figure, const fs::path& stem, const FigureFormats
                 fmt::format("cannot make the folder '{}': {}", stem.parent_path().string(), error.message()));
         }
     }
-    writeText(spec, figureSpec(figure).dump());
+    writeText(spec, jsonText(figureSpec(figure)));
     if (formats.svg || formats.png) {
         drawSvg(spec, svg);
     }

@@ -69,6 +69,9 @@ std::string shortNumber(double value) {
     if (value == 0) {
         return "0";
     }
+    if (!std::isfinite(value)) {
+        return fmt::format("{}", value);
+    }
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent < -4 || exponent > 6) {
         return fmt::format("{:.3g}", value);

@@ -29,7 +29,7 @@ std::optional<double> valueOf(const MetricRow& row, const RunFolder& run);
 /// Name and unit.
 std::string headingOf(const MetricRow& row);
 
-/// Four significant digits; no exponent for what tables usually hold.
+/// Four significant digits; no exponent for what tables usually hold; "nan" and "inf" for what is none.
 std::string shortNumber(double value);
 
 /// Whether `a` is better than `b`; false for metrics without a best.

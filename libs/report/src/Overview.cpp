@@ -10,6 +10,8 @@
 
 #include "OverviewView.h"
 #include "TrackStyles.h"
+#include "TrueOrigin.h"
+#include "sections/Courses.h"
 
 namespace slamot::report {
 namespace {
@@ -66,9 +68,7 @@ Points2 trueWay(const std::vector<Sample>& samples, const eval::RunRecord& run, 
     for (std::size_t i = 1; i < within.size(); ++i) {
         intervals.push_back(secondsBetween(within[i - 1]->stamp, within[i]->stamp));
     }
-    std::vector<double> sorted = intervals;
-    std::sort(sorted.begin(), sorted.end());
-    const double longest = sorted.empty() ? 0 : 5 * sorted[sorted.size() / 2];
+    const double longest = longestInterval(intervals);
     Points2 points;
     for (std::size_t i = 0; i < within.size(); ++i) {
         if (i > 0 && intervals[i - 1] > longest) {
@@ -98,7 +98,9 @@ MapContent contentOf(const eval::RunRecord& run, const Truth* truth) {
     }
     content.tracks = trackWays(run);
     if (truth) {
-        content.true_robot = trueWay(truth->robot, run, [](const TruePose& p) { return p.pose.position(); });
+        content.true_robot = trueWay(truth->robot, run, [&](const TruePose& p) {
+            return trueOrigin(p.pose.position(), truth->point, estimatedHeading(run.trajectory, p.stamp));
+        });
         for (const auto& [id, samples] : truth->targets) {
             content.true_targets[id] = trueWay(samples, run, [](const TrueTarget& t) { return t.position; });
         }

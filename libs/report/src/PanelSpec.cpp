@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ColourMap.h"
+#include "JsonText.h"
 #include "LayerMarks.h"
 #include "Legend.h"
 #include "Text.h"
@@ -99,7 +100,7 @@ json axisSpec(const Axis& axis, const AxisView& view, bool upright, bool map = f
         result["values"] = places;
         result["ticks"] = false;
         result["labelOverlap"] = false;
-        label = json(axis.categories).dump() + "[datum.value]";
+        label = jsonText(json(axis.categories)) + "[datum.value]";
     } else if (view.logarithmic) {
         result["values"] = logarithmicTicks(view, view.pixels / (upright ? 25 : 50));
         label =

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "SummaryFile.h"
+#include "slamot/eval/Metrics.h"
 #include "slamot/rawlog/CsvTable.h"
 #include "slamot/rawlog/LogError.h"
 
@@ -15,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* no_truth = "none";
+
 std::string bytesOf(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream bytes;
@@ -22,16 +27,12 @@ std::string bytesOf(const std::string& file) {
     return bytes.str();
 }
 
-nlohmann::json readSummary(const std::string& folder) {
-    const std::string file = folder + "/summary.json";
-    if (!fs::exists(file)) {
-        throw LogError(fmt::format("{}: has no summary.json, expected the output folder of a run", folder));
+double finite(const CsvReader& table, int column) {
+    const double value = table.number(column);
+    if (!std::isfinite(value)) {
+        table.fail(column, "a finite number");
     }
-    nlohmann::json summary = nlohmann::json::parse(bytesOf(file), nullptr, false);
-    if (!summary.is_object() || summary.value("program", "") != "slamot") {
-        throw LogError(fmt::format("{}: is not what slamot writes, expected the summary of a run", file));
-    }
-    return summary;
+    return value;
 }
 
 std::vector<StepRow> readSteps(const std::string& file) {
@@ -58,9 +59,9 @@ std::vector<LandmarkSight> readSights(const std::string& file) {
         sight.stamp = table.stamp(t);
         sight.id = {table.integer(id)};
         sight.source = {table.integer(source)};
-        sight.mean = {table.number(x), table.number(y)};
-        const double covariance = table.number(xy);
-        sight.covariance << table.number(xx), covariance, covariance, table.number(yy);
+        sight.mean = {finite(table, x), finite(table, y)};
+        const double covariance = finite(table, xy);
+        sight.covariance << finite(table, xx), covariance, covariance, finite(table, yy);
         sights.push_back(sight);
     }
     return sights;
@@ -75,7 +76,8 @@ CorrelationCells readCorrelation(const std::string& file) {
         std::memcpy(header, bytes.data() + 8, sizeof header);
     }
     const std::size_t n = header[2];
-    if (!begins || header[0] != 1 || n > 512 || bytes.size() != head + n * n * sizeof(float)) {
+    if (!begins || header[0] != 1 || n > 512 || header[1] < n ||
+        bytes.size() != head + n * n * sizeof(float)) {
         throw LogError(
             fmt::format("{}: is not a correlation matrix of version 1, expected what a run writes", file));
     }
@@ -87,19 +89,32 @@ CorrelationCells readCorrelation(const std::string& file) {
     return correlation;
 }
 
-/// Where the run's truth is: as given, or as the run had it.
-void findTruth(RunFolder& run, const std::string& given) {
-    if (given == "none") {
+/// The truth that was asked for, with the metrics against it: those of the run may be of another.
+void takeGivenTruth(RunFolder& run, const std::string& folder) {
+    run.summary["metrics"] = nullptr;
+    if (folder == no_truth) {
         run.why_no_truth = "the report was made without";
         return;
     }
-    const std::string folder = given.empty() ? run.text("truth") : given;
+    run.truth = readTruth(folder);
+    run.truth_folder = folder;
+    run.summary["metrics"] = eval::toJson(eval::evaluate(run.run, *run.truth, run.evaluation));
+}
+
+/// Truth where the run had it. The page is worth having without.
+void findTruth(RunFolder& run) {
+    const std::string folder = run.text("truth");
     if (folder.empty()) {
         run.why_no_truth = "the run had none";
-    } else if (given.empty() && !fs::is_directory(folder)) {
+    } else if (!fs::is_directory(folder)) {
         run.why_no_truth = fmt::format("{}, which the run had, is not there; --truth names it", folder);
     } else {
-        run.truth = readTruth(folder);
+        try {
+            run.truth = readTruth(folder);
+            run.truth_folder = folder;
+        } catch (const LogError& error) {
+            run.why_no_truth = fmt::format("what the run had cannot be used any more ({})", error.what());
+        }
     }
 }
 
@@ -126,12 +141,28 @@ std::string RunFolder::text(const std::string& name) const {
                                                                   : std::string();
 }
 
+std::string RunFolder::digits(const std::string& path) const {
+    const nlohmann::json::json_pointer pointer("/" + path);
+    if (!summary.contains(pointer) || !summary.at(pointer).is_number()) {
+        return {};
+    }
+    const nlohmann::json& value = summary.at(pointer);
+    return value.is_number_integer() ? value.dump() : fmt::format("{}", value.get<double>());
+}
+
+nlohmann::json RunFolder::list(const std::string& name) const {
+    const auto found = summary.find(name);
+    return found != summary.end() && found->is_array() ? *found : nlohmann::json::array();
+}
+
 RunFolder readRunFolder(const std::string& folder, const std::string& truth_folder) {
     const auto there = [&](const char* name) { return fs::exists(folder + "/" + name); };
     RunFolder run;
     run.folder = folder;
     run.summary = readSummary(folder);
+    run.evaluation = evaluationOf(run.summary, folder);
     run.run = eval::readRun(folder);
+    run.map_known = there("landmarks.csv");
     if (there("steps.csv")) {
         run.steps = readSteps(folder + "/steps.csv");
     }
@@ -141,7 +172,11 @@ RunFolder readRunFolder(const std::string& folder, const std::string& truth_fold
     if (there("correlation.bin")) {
         run.correlation = readCorrelation(folder + "/correlation.bin");
     }
-    findTruth(run, truth_folder);
+    if (truth_folder.empty()) {
+        findTruth(run);
+    } else {
+        takeGivenTruth(run, truth_folder);
+    }
     if (run.truth) {
         run.pairs = eval::pairWithTruth(run.run.trajectory, *run.truth).pairs;
     }

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "slamot/eval/BestTrack.h"
+
 namespace slamot::report {
 
 std::vector<StyledTrack> styledTracks(const eval::RunRecord& run) {
@@ -47,7 +49,7 @@ const TrackEstimate* FollowedObject::among(const std::vector<TrackEstimate>& tra
     const TrackEstimate* found = nullptr;
     for (const TrackEstimate& candidate : tracks) {
         const bool follows = source.valid() ? candidate.source == source : candidate.id == track;
-        if (follows && (!found || candidate.existence > found->existence)) {
+        if (follows && (!found || eval::countsBefore(candidate, *found))) {
             found = &candidate;
         }
     }

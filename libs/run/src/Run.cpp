@@ -151,6 +151,7 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     summary.end = end.kept;
     if (result.metrics) summary.metrics = eval::toJson(*result.metrics);
     summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
+    for (const Sink* sink : sinks) summary.wall_seconds -= sink->heldBack();
     summary.cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     result.summary = makeSummary(summary);
     return result;

@@ -1,4 +1,3 @@
-#include <mrpt/opengl/CEllipsoid2D.h>
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfLines.h>
@@ -9,25 +8,16 @@
 #include <map>
 
 #include "slamot/rawlog/GzFile.h"
+#include "slamot/run/MrptShapes.h"
 #include "slamot/run/MrptSinks.h"
 
 namespace slamot::run {
 namespace {
 
-/// Colours that colour-blind people can tell apart (Okabe and Ito).
-const mrpt::img::TColor robot_colour(0, 114, 178), landmark_colour(0, 158, 115);
-const mrpt::img::TColor track_colours[] = {{213, 94, 0}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
-
-mrpt::opengl::CEllipsoid2D::Ptr ellipse(const Vector2& mean, const Matrix2& covariance, const mrpt::img::TColor& colour) {
-    auto out = mrpt::opengl::CEllipsoid2D::Create();
-    mrpt::math::CMatrixDouble22 c;
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) c(i, j) = covariance(i, j);
-    out->setCovMatrix(c);
-    out->setQuantiles(3.0f);
-    out->setLocation(mean.x(), mean.y(), 0);
-    out->setColor_u8(colour);
-    out->set2DsegmentsCount(30);
+mrpt::opengl::CEllipsoid2D::Ptr ellipse(const Vector2& mean, const Matrix2& covariance,
+                                        const mrpt::img::TColor& colour) {
+    auto out = makeEllipse(colour);
+    placeEllipse(*out, mean, covariance);
     return out;
 }
 
@@ -72,13 +62,13 @@ void SceneSink::end(const RunEnd& end) {
     ground->setColor(0.8f, 0.8f, 0.8f);
     scene.insert(ground);
 
-    scene.insert(Impl::path(impl_->robot, robot_colour));
+    scene.insert(Impl::path(impl_->robot, shape_colour::robot));
     std::size_t k = 0;
-    for (const auto& [id, points] : impl_->tracks) scene.insert(Impl::path(points, track_colours[k++ % std::size(track_colours)]));
-    for (const LandmarkEstimate& l : end.landmarks) scene.insert(ellipse(l.mean, l.covariance, landmark_colour));
+    for (const auto& [id, points] : impl_->tracks) scene.insert(Impl::path(points, shape_colour::tracks[k++ % shape_colour::tracks.size()]));
+    for (const LandmarkEstimate& l : end.landmarks) scene.insert(ellipse(l.mean, l.covariance, shape_colour::landmark));
 
     const auto& [pose, covariance] = end.estimate.robot;
-    scene.insert(ellipse(pose.position(), covariance.topLeftCorner<2, 2>(), robot_colour));
+    scene.insert(ellipse(pose.position(), covariance.topLeftCorner<2, 2>(), shape_colour::robot));
     auto robot = mrpt::opengl::stock_objects::RobotPioneer();
     robot->setPose(mrpt::poses::CPose3D(pose.x, pose.y, 0, pose.theta, 0, 0));
     scene.insert(robot);

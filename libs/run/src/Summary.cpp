@@ -7,6 +7,7 @@
 namespace slamot::run {
 namespace {
 
+/// JSON has no infinity: a limit that is none is null.
 nlohmann::json number(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
@@ -41,12 +42,12 @@ nlohmann::json sensorsJson(const std::map<std::string, RangeBearingSensor>& sens
     for (const auto& [label, sensor] : sensors)
         list.push_back({{"label", label},
                         {"kind", toText(sensor.kind)},
-                        {"x", sensor.pose.x},
-                        {"y", sensor.pose.y},
-                        {"theta", sensor.pose.theta},
-                        {"min_range", sensor.min_range},
-                        {"max_range", sensor.max_range},
-                        {"field_of_view", sensor.field_of_view}});
+                        {"x", number(sensor.pose.x)},
+                        {"y", number(sensor.pose.y)},
+                        {"theta", number(sensor.pose.theta)},
+                        {"min_range", number(sensor.min_range)},
+                        {"max_range", number(sensor.max_range)},
+                        {"field_of_view", number(sensor.field_of_view)}});
     return list;
 }
 

@@ -24,6 +24,8 @@
 namespace slamot::study {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// The part of a list that stands for its place: what it is about, where it says so.
 std::string placeOf(const nlohmann::json& item, std::size_t index) {
     if (!item.is_object() || !item.contains("sensor")) return std::to_string(index);
@@ -73,6 +75,11 @@ void fill(Row& row, const run::RunResult& result, const std::vector<std::string>
     row.cost.step_ms_max = number(time["step_ms"]["max"]);
 }
 
+/// Where the truth of a kept world is: beside its runs, whose summaries name it.
+std::string truthFolderIn(const fs::path& world_folder) {
+    return (world_folder / "truth").string();
+}
+
 /// Tells the errors of another sink from those of the run.
 class CheckedSink : public run::Sink {
   public:
@@ -112,6 +119,7 @@ run::RunStatus runInto(Row& row, const Plan& plan, const WorldPlan& planned, con
     std::optional<run::OutputFolder> output;
     std::vector<std::unique_ptr<CheckedSink>> checked;
     if (!folder.empty()) {
+        if (world.truth()) run.input.truth_name = truthFolderIn(fs::path(folder).parent_path());
         output.emplace(folder, run.assembled, "");
         for (run::Sink* sink : output->sinks()) checked.push_back(std::make_unique<CheckedSink>(*sink));
         for (const auto& sink : checked) run.input.sinks.push_back(sink.get());
@@ -153,7 +161,7 @@ std::vector<Row> runUnit(const Plan& plan, const Unit& unit, const PluginRegistr
     }
     const std::string folder =
         options.keep_folder.empty() ? "" : options.keep_folder + "/" + plan.nameOf(planned);
-    if (!folder.empty() && world->truth()) writeTruth(*world->truth(), folder + "/truth");
+    if (!folder.empty() && world->truth()) writeTruth(*world->truth(), truthFolderIn(folder));
 
     for (std::size_t i = 0; i < unit.runs.size(); ++i) {
         const RunPlan& run = plan.runsOf(planned)[unit.runs[i]];

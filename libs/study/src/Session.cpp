@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <regex>
 
 #include "slamot/rawlog/LogError.h"
+#include "slamot/report/ShellWord.h"
 
 namespace slamot::study {
 namespace {
@@ -16,10 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t reasons_shown = 3;
-
-bool needsNoQuotes(unsigned char c) {
-    return std::isalnum(c) || std::string("_-+=./,:@%").find(static_cast<char>(c)) != std::string::npos;
-}
 
 }  // namespace
 
@@ -33,16 +28,7 @@ std::vector<std::string> argumentsOf(const SessionRequest& request) {
 
 std::string shellLine(const std::vector<std::string>& words) {
     std::string line;
-    for (const std::string& word : words) {
-        if (!line.empty()) line += ' ';
-        if (!word.empty() && std::all_of(word.begin(), word.end(), needsNoQuotes)) {
-            line += word;
-            continue;
-        }
-        line += '\'';
-        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += '\'';
-    }
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + report::shellWord(word);
     return line;
 }
 

@@ -122,9 +122,9 @@ class Page:
     def wait_for_figures(self):
         self.wait_for("document.documentElement.dataset.ready === 'true'")
 
-    def key(self, name, code=None):
+    def key(self, name, code=None, shift=False):
         for kind in ("keyDown", "keyUp"):
-            self.send("Input.dispatchKeyEvent", type=kind, key=name, code=code or name,
+            self.send("Input.dispatchKeyEvent", type=kind, key=name, code=code or name, modifiers=8 if shift else 0,
                       windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9}.get(name, 0))
 
     def screenshot(self, file, whole=True):

@@ -1,6 +1,6 @@
 #include "page/Html.h"
 
-#include <nlohmann/json.hpp>
+#include "JsonText.h"
 
 namespace slamot::report {
 namespace {
@@ -9,9 +9,7 @@ constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 /// nlohmann's writer knows UTF-8: a string through it and back has no other bytes left.
 std::string validUtf8(std::string_view text) {
-    const nlohmann::json raw = std::string(text);
-    return nlohmann::json::parse(raw.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-        .get<std::string>();
+    return nlohmann::json::parse(jsonText(std::string(text))).get<std::string>();
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "JsonText.h"
 #include "page/Assets.h"
 #include "page/CompactSpec.h"
 #include "page/Html.h"
@@ -53,18 +55,24 @@ std::string html(const PageFigure& figure) {
     const nlohmann::json spec = compactSpec(figureSpec(figure.figure));
     const double width = spec.at("width");
     std::string out = fmt::format("<figure id=\"figure-{0}\" data-figure=\"{0}\">\n", escaped(figure.name));
+    const nlohmann::json& panels = spec.at("usermeta").at("panels");
+    const bool takes_keys = std::any_of(panels.begin(), panels.end(), [](const nlohmann::json& panel) {
+        return panel.at("x").at("moves").get<bool>();
+    });
     out += fmt::format(
-        "<div class=\"canvas\" tabindex=\"0\" role=\"img\" aria-label=\"{0}\" "
+        "<div class=\"canvas\" tabindex=\"0\" role=\"{4}\" aria-label=\"{0}\" "
         "style=\"aspect-ratio: {1} / {2}; max-width: {3}px\"></div>\n",
-        escaped(figure.alt), width, spec.at("height").get<double>(), std::round(1.1 * width));
+        escaped(figure.alt), width, spec.at("height").get<double>(), std::round(1.1 * width),
+        takes_keys ? "group" : "img");
     out +=
         "<div class=\"below\"><details class=\"layers\"><summary>Show or hide</summary><div "
         "class=\"choices\"></div>"
-        "</details><output class=\"readout\"></output><span class=\"tools\"></span></div>\n";
+        "</details><output class=\"readout\" aria-live=\"polite\"></output><span "
+        "class=\"tools\"></span></div>\n";
     if (!figure.caption.empty()) {
         out += "<figcaption>" + escaped(figure.caption) + "</figcaption>\n";
     }
-    return out + "<script type=\"application/json\" class=\"spec\">" + inScript(spec.dump()) +
+    return out + "<script type=\"application/json\" class=\"spec\">" + inScript(jsonText(spec)) +
            "</script>\n</figure>\n";
 }
 
@@ -89,10 +97,18 @@ std::string keyEntry(const std::string& drawing, const std::string& words) {
            "</li>";
 }
 
+/// A colour that the theme changes (assets/replay.js).
+std::string keyColour(const char* attribute, const std::string& light) {
+    return fmt::format("{0}=\"{1}\" data-colour=\"{1}\"", attribute, escaped(light));
+}
+
 std::string html(const ReplayView& replay) {
     std::string out = "<div class=\"replay\" data-replay>\n";
-    out +=
-        fmt::format("<canvas tabindex=\"0\" role=\"img\" aria-label=\"{}\"></canvas>\n", escaped(replay.alt));
+    // The group takes the keys; what is seen in it is a picture.
+    out += fmt::format(
+        "<div class=\"stage\" tabindex=\"0\" role=\"group\" aria-label=\"Replay\">"
+        "<canvas role=\"img\" aria-label=\"{}\"></canvas></div>\n",
+        escaped(replay.alt));
     out +=
         "<div class=\"time\"><button type=\"button\" class=\"play\">Play</button>"
         "<input type=\"range\" min=\"0\" max=\"1\" step=\"1\" value=\"0\" aria-label=\"Time\">"
@@ -102,31 +118,29 @@ std::string html(const ReplayView& replay) {
     }
     out += "</select></label><button type=\"button\" class=\"whole\">Whole map</button></div>\n";
     out += "<p class=\"state\"></p>\n<fieldset><legend>Show:</legend>";
-    const std::pair<const char*, const char*> layers[] = {{"truth", "truth"},
-                                                          {"ellipses", "3σ ellipses"},
-                                                          {"sight", "field of view and what is seen"},
-                                                          {"follow", "follow the robot"}};
-    for (const auto& [value, label] : layers) {
-        out += fmt::format("<label><input type=\"checkbox\" value=\"{}\"{}> {}</label>", value,
-                           std::string(value) == "follow" ? "" : " checked", label);
+    for (const ReplayChoice& choice : replay.choices) {
+        out += fmt::format("<label><input type=\"checkbox\" value=\"{}\"{}> {}</label>", escaped(choice.id),
+                           choice.on ? " checked" : "", escaped(choice.label));
     }
     out += "</fieldset>\n";
     out += "<ul class=\"key\" aria-label=\"What is drawn\">";
-    out += keyEntry("<path d=\"M3 1 L14 4 L3 7 Z\" fill=\"" + std::string(colour::blue) + "\"/>",
+    out += keyEntry("<path d=\"M3 1 L14 4 L3 7 Z\" " + keyColour("fill", colour::blue) + "/>",
                     "robot and its way");
     out += keyEntry("<rect x=\"6\" y=\"2\" width=\"4\" height=\"4\" fill=\"currentColor\"/>", "landmark");
     out += keyEntry("<path d=\"M5 1 L11 7 M5 7 L11 1\" stroke=\"currentColor\"/>", "true landmark");
     out += keyEntry("<path d=\"M0 4 H16\" stroke-width=\"4\" stroke=\"currentColor\" opacity=\"0.35\"/>",
                     "true way");
-    out +=
-        keyEntry("<path d=\"M0 4 H16\" stroke=\"" + std::string(colour::sky) + "\"/>", "seen at this step");
+    out += keyEntry("<path d=\"M0 4 H16\" " + keyColour("stroke", colour::sky) + "/>", "seen at this step");
     if (replay.modes.size() > 1) {
         for (const auto& [name, mode_colour] : replay.modes) {
-            out += keyEntry("<circle cx=\"8\" cy=\"4\" r=\"4\" fill=\"" + escaped(mode_colour) + "\"/>",
+            out += keyEntry("<circle cx=\"8\" cy=\"4\" r=\"4\" " + keyColour("fill", mode_colour) + "/>",
                             "track in mode " + name);
         }
     }
     out += "</ul>\n";
+    if (!replay.note.empty()) {
+        out += "<p class=\"note\">" + escaped(replay.note) + "</p>\n";
+    }
     return out + "<script type=\"application/json\" class=\"data\">" + inScript(replay.data) +
            "</script>\n</div>\n";
 }

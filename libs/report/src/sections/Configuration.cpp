@@ -1,7 +1,9 @@
 // What of the log was not used, every setting, and how to run it again.
 #include <fmt/format.h>
 
+#include "ConfigLines.h"
 #include "sections/Sections.h"
+#include "slamot/report/ShellWord.h"
 
 namespace slamot::report {
 namespace {
@@ -12,10 +14,16 @@ std::string always(const RunFolder&) {
 
 std::vector<Block> drops(const RunFolder& run) {
     PageTable table{"Dropped", {{"sensor", false}, {"reason", false}, {"count"}}, {}};
-    for (const auto& drop : run.summary.value("drops", nlohmann::json::array())) {
-        table.rows.push_back({{{drop.value("sensor", "")},
-                               {drop.value("reason", "")},
-                               {fmt::format("{}", drop.value("count", std::int64_t{0}))}}});
+    for (const auto& drop : run.list("drops")) {
+        const auto text = [&](const char* name) {
+            const auto found = drop.find(name);
+            return found != drop.end() && found->is_string() ? found->get<std::string>() : std::string();
+        };
+        const auto count = drop.find("count");
+        const bool counted = count != drop.end() && count->is_number_integer();
+        table.rows.push_back({{{text("sensor")},
+                               {text("reason")},
+                               {counted ? fmt::format("{}", count->get<std::int64_t>()) : "?"}}});
     }
     if (table.rows.empty()) {
         return {Paragraph{"Nothing of the log was dropped."}};
@@ -23,26 +31,14 @@ std::vector<Block> drops(const RunFolder& run) {
     return {table};
 }
 
-/// A word of a shell's command line.
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789_-+./=:,@%") == std::string::npos;
-    if (plain) {
-        return word;
-    }
-    std::string result = "'";
-    for (const char c : word) {
-        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return result + "'";
-}
-
 std::vector<Block> configuration(const RunFolder& run) {
     const std::string truth = run.text("truth");
-    const std::string command =
-        fmt::format("slamot run run.ini {} -o out --truth {} --seed {:.0f}", quoted(run.text("log")),
-                    truth.empty() ? "none" : quoted(truth), run.number("seed").value_or(1));
+    std::string command = fmt::format("slamot run run.ini {} -o out --truth {}", shellWord(run.text("log")),
+                                      truth.empty() ? "none" : shellWord(truth));
+    if (const std::string seed = run.digits("seed");
+        !seed.empty() && !configHolds(run.text("config"), "run", "seed")) {
+        command += " --seed " + seed;
+    }
     return {Paragraph{"Save the settings below as run.ini, then"}, Verbatim{command, "", true},
             Verbatim{run.text("config"),
                      "Settings that were given; `slamot config` prints all with their defaults", true},

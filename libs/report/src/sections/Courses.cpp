@@ -12,13 +12,17 @@ void ErrorCourse::add(double t, double e, double s) {
     sigma.push_back(s);
 }
 
+double longestInterval(const std::vector<double>& intervals) {
+    return 5 * quantile(intervals, 0.5);
+}
+
 void breakAtGaps(ErrorCourse& course) {
     const std::vector<double>& t = course.seconds;
     std::vector<double> intervals;
     for (std::size_t i = 1; i < t.size(); ++i) {
         intervals.push_back(t[i] - t[i - 1]);
     }
-    const double longest = 5 * quantile(intervals, 0.5);
+    const double longest = longestInterval(intervals);
     ErrorCourse broken;
     for (std::size_t i = 0; i < t.size(); ++i) {
         if (i > 0 && t[i] - t[i - 1] > longest) {
@@ -116,16 +120,6 @@ std::vector<Band> stackedSteps(const Windows& windows, const std::vector<std::ve
 
 std::optional<TrueTarget> truthOf(const RunFolder& run, SourceId source, Stamp stamp) {
     return run.truth && source.valid() ? run.truth->targetAt(source, stamp) : std::nullopt;
-}
-
-double bandProbability(const RunFolder& run) {
-    // eval prints its options as text, as config files have them.
-    const nlohmann::json::json_pointer place("/metrics/options/probability");
-    if (!run.summary.contains(place)) {
-        return 0.95;
-    }
-    const nlohmann::json& value = run.summary.at(place);
-    return value.is_number() ? value.get<double>() : std::stod(value.get<std::string>());
 }
 
 }  // namespace slamot::report

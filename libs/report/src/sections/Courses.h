@@ -18,6 +18,9 @@ struct ErrorCourse {
     bool empty() const { return seconds.empty(); }
 };
 
+/// What is longer than this is a gap: five times the median interval.
+double longestInterval(const std::vector<double>& intervals);
+
 /// Puts NaN where two entries are more than five times as far apart as they usually are: lines must not
 /// bridge gaps.
 void breakAtGaps(ErrorCourse& course);
@@ -62,8 +65,5 @@ std::vector<Band> stackedSteps(const Windows& windows, const std::vector<std::ve
 
 /// The true target of a track, by its source id.
 std::optional<TrueTarget> truthOf(const RunFolder& run, SourceId source, Stamp stamp);
-
-/// Probability of chi-square bands that the run was evaluated with.
-double bandProbability(const RunFolder& run);
 
 }  // namespace slamot::report

@@ -1,6 +1,7 @@
 // The overview figure: map, ways, ellipses, truth.
 #include <fmt/format.h>
 
+#include "TrueOrigin.h"
 #include "sections/Sections.h"
 #include "slamot/report/Overview.h"
 
@@ -18,7 +19,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     const std::string alt =
         fmt::format("Map of the run: the robot's way, {} landmarks with 3-sigma ellipses{}.",
                     run.run.landmarks.size(), run.truth ? ", and the true ways and landmarks" : "");
-    return {PageFigure{"map", alt, figure, ""}};
+    return {PageFigure{"map", alt, figure, run.truth ? whereTruthIsDrawn(*run.truth) : ""}};
 }
 
 }  // namespace

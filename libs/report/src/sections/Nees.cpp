@@ -14,7 +14,7 @@ namespace {
 
 /// A logarithmic panel with the chi-square band of `degrees`.
 Panel neesPanel(const RunFolder& run, const std::string& title, int degrees, Line line) {
-    const double probability = bandProbability(run);
+    const double probability = run.evaluation.probability;
     const eval::Band band = eval::chiSquareBand(probability, degrees);
     Panel panel;
     panel.title = title;
@@ -78,27 +78,56 @@ std::string absent(const RunFolder& run) {
     return mostDegrees(eval::robotNees(run.pairs)) == 0 ? "no covariance that is known has a truth" : "";
 }
 
+/// NEES takes truth for exact.
+std::string howWellTruthIsKnown(const Truth& truth) {
+    if (truth.position_std > 0) {
+        return fmt::format(
+            " Truth itself has a standard deviation of {} m, which NEES takes for 0: it is too large by "
+            "that.",
+            truth.position_std);
+    }
+    const bool measured =
+        !truth.point.isZero(0) || std::all_of(truth.robot.begin(), truth.robot.end(),
+                                              [](const TruePose& p) { return std::isnan(p.pose.theta); });
+    return measured ? " This truth was measured (of a point of the robot, or without headings) and states no "
+                      "accuracy, "
+                      "while NEES takes it for exact: errors of the truth count as the estimate's, and NEES "
+                      "may be far "
+                      "too large."
+                    : "";
+}
+
 std::vector<Block> blocks(const RunFolder& run) {
     const eval::NeesSeries robot = eval::robotNees(run.pairs);
     Figure figure;
     figure.panels.push_back(
         neesPanel(run, "Robot", mostDegrees(robot), lineOf(run, robot, "Robot", colour::blue)));
+    std::size_t objects = 0, shown = 0;
     for (const FollowedObject& object : followedObjects(run.run)) {
         const eval::NeesSeries series = objectNees(run, object);
-        if (series.empty() || figure.panels.size() > most_objects_shown) {
+        if (series.empty()) {
             continue;
         }
+        ++objects;
+        if (shown == most_objects_shown) {
+            continue;
+        }
+        ++shown;
         Panel panel =
             neesPanel(run, object.name + ", position", 2, lineOf(run, series, "Track", object.style.colour));
         panel.height = 140;
         figure.panels.push_back(std::move(panel));
     }
     std::string caption;
-    if (const auto summary = eval::summariseNees(robot, bandProbability(run))) {
+    if (const auto summary = eval::summariseNees(robot, run.evaluation.probability)) {
         caption = fmt::format(
             "Robot: {} on average of {:.3g} degrees of freedom; {:.1f} % of {} steps in the band.",
             shortNumber(summary->average), summary->mean_dimension, 100 * summary->inside, summary->steps);
     }
+    if (objects > shown) {
+        caption += fmt::format(" The {} longest followed of {} objects.", shown, objects);
+    }
+    caption += howWellTruthIsKnown(*run.truth);
     return {PageFigure{"nees", "NEES over time with chi-square bands. " + caption, figure, caption}};
 }
 

@@ -1,4 +1,6 @@
 // Normalized innovations squared by sensor and kind.
+#include "slamot/eval/Nis.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +24,7 @@ using Rows = std::vector<const eval::InnovationRow*>;
 std::map<Group, Rows> groupsOf(const RunFolder& run) {
     std::map<Group, Rows> groups;
     for (const eval::InnovationRow& row : run.run.innovations) {
-        if (std::isfinite(row.innovation.nis) && row.innovation.outcome != Outcome::tentative) {
+        if (eval::countsForNis(row.innovation)) {
             groups[{row.sensor, row.innovation.kind}].push_back(&row);
         }
     }
@@ -72,7 +74,7 @@ void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const
 
 Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     constexpr std::size_t many = 5000;
-    const double probability = bandProbability(run);
+    const double probability = run.evaluation.probability;
     const Windows windows = windowsFor(run, rows.size(), most_windows, 20);
     std::vector<std::vector<double>> values(windows.count());
     Points used{"innovations used", {}, colour::sky, Symbol::dot, 3, 0.8};
@@ -116,15 +118,25 @@ std::string absent(const RunFolder& run) {
 
 std::vector<Block> blocks(const RunFolder& run) {
     Figure figure;
-    for (const auto& [group, rows] : groupsOf(run)) {
-        if (figure.panels.size() < most_groups) {
-            figure.panels.push_back(panelOf(run, group, rows));
-        }
+    const std::map<Group, Rows> groups = groupsOf(run);
+    std::vector<const std::pair<const Group, Rows>*> largest;
+    for (const auto& group : groups) {
+        largest.push_back(&group);
     }
+    std::stable_sort(largest.begin(), largest.end(),
+                     [](const auto* a, const auto* b) { return a->second.size() > b->second.size(); });
+    largest.resize(std::min(largest.size(), most_groups));
+    for (const auto* group : largest) {
+        figure.panels.push_back(panelOf(run, group->first, group->second));
+    }
+    const std::string caption = groups.size() > largest.size()
+                                    ? fmt::format("The {} groups with the most innovations, of {} groups.",
+                                                  largest.size(), groups.size())
+                                    : "";
     const std::string alt = fmt::format(
         "NIS over time for {} groups of sensor and kind, with the mean over windows and its chi-square band.",
         figure.panels.size());
-    return {PageFigure{"nis", alt, figure, ""}};
+    return {PageFigure{"nis", alt, figure, caption}};
 }
 
 }  // namespace

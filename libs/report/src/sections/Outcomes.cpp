@@ -15,6 +15,21 @@ std::string absent(const RunFolder& run) {
     return run.run.innovations.empty() ? "innovations.csv is not there or empty ([output] innovations)" : "";
 }
 
+/// Stamps with detections, also where nothing was detected: an estimator's update takes time, however little.
+/// Without steps.csv those at which something was.
+std::vector<Stamp> scanStamps(const RunFolder& run) {
+    std::set<Stamp> stamps;
+    for (const StepRow& row : run.steps) {
+        if (row.update_ms > 0) {
+            stamps.insert(row.stamp);
+        }
+    }
+    for (const eval::InnovationRow& row : run.run.innovations) {
+        stamps.insert(row.stamp);
+    }
+    return {stamps.begin(), stamps.end()};
+}
+
 std::vector<Block> blocks(const RunFolder& run) {
     const std::array outcomes{Outcome::updated,   Outcome::inflated, Outcome::initiated,
                               Outcome::tentative, Outcome::rejected, Outcome::ignored};
@@ -24,10 +39,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     for (const Outcome outcome : outcomes) {
         labels.emplace_back(toText(outcome));
     }
-    std::set<Stamp> stamps;
-    for (const eval::InnovationRow& row : run.run.innovations) {
-        stamps.insert(row.stamp);
-    }
+    const std::vector<Stamp> stamps = scanStamps(run);
     const Windows windows = windowsFor(run, stamps.size(), most_windows, 4);
     std::vector<double> scans(windows.count(), 0);
     for (const Stamp stamp : stamps) {
@@ -53,8 +65,12 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     Figure figure;
     figure.panels = {panel};
+    const std::string caption =
+        run.steps.empty()
+            ? "Without steps.csv stamps at which nothing was detected are not known and not counted."
+            : "";
     return {PageFigure{"outcomes", "Detections at a time, mean over windows, by what became of them.", figure,
-                       ""}};
+                       caption}};
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // The run again, with a slider.
 #include <fmt/format.h>
 
+#include "TrueOrigin.h"
 #include "sections/ReplayData.h"
 #include "sections/Sections.h"
-#include "slamot/report/Palette.h"
 
 namespace slamot::report {
 namespace {
@@ -13,14 +13,14 @@ std::string absent(const RunFolder& run) {
 }
 
 std::vector<Block> blocks(const RunFolder& run) {
-    ReplayView replay;
+    ReplayView replay = replayOf(run);
     replay.alt = fmt::format(
         "Replay of {:.1f} s: the robot and its field of view, landmarks as they appear, tracks with their "
         "modes.",
         run.duration());
-    replay.data = replayData(run);
-    for (std::size_t m = 0; m < run.run.mode_names.size(); ++m) {
-        replay.modes.emplace_back(run.run.mode_names[m], seriesStyle(m).colour);
+    if (run.truth) {
+        const std::string where = whereTruthIsDrawn(*run.truth);
+        replay.note += (replay.note.empty() || where.empty() ? "" : " ") + where;
     }
     return {replay};
 }

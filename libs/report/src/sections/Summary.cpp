@@ -31,25 +31,21 @@ PageTable runTable(const RunFolder& run) {
             table.rows.push_back({{{name}, {value}}});
         }
     };
-    const auto whole = [&](const char* path) {
-        const std::optional<double> value = run.number(path);
-        return value ? fmt::format("{}", *value) : std::string();
-    };
     add("estimator", run.text("estimator"));
     add("detector", run.text("detector") == "none" ? "" : run.text("detector"));
     add("log", run.text("log"));
-    add("truth", run.text("truth"));
+    add("truth", run.truth_folder);
     add("status", run.text("status"));
     add("why it ended", run.text("end_message"));
-    add("seed", whole("seed"));
+    add("seed", run.digits("seed"));
     add("version", fmt::format("{} {}", run.text("program"), run.text("version")));
-    add("odometry readings", whole("counts/odometry"));
-    add("detections", whole("counts/detections"));
-    add("  used", whole("counts/detections_used"));
-    add("  down-weighted", whole("counts/detections_inflated"));
-    add("  rejected", whole("counts/detections_rejected"));
-    add("  tentative", whole("counts/detections_tentative"));
-    add("  ignored", whole("counts/detections_ignored"));
+    add("odometry readings", run.digits("counts/odometry"));
+    add("detections", run.digits("counts/detections"));
+    add("  used", run.digits("counts/detections_used"));
+    add("  down-weighted", run.digits("counts/detections_inflated"));
+    add("  rejected", run.digits("counts/detections_rejected"));
+    add("  tentative", run.digits("counts/detections_tentative"));
+    add("  ignored", run.digits("counts/detections_ignored"));
     return table;
 }
 
@@ -63,7 +59,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     if (!metrics.rows.empty()) {
         result.push_back(metrics);
     }
-    for (const auto& warning : run.summary.value("warnings", nlohmann::json::array())) {
+    for (const auto& warning : run.list("warnings")) {
         if (warning.is_string()) {
             result.push_back(Paragraph{"Warning: " + warning.get<std::string>() + "."});
         }

@@ -30,6 +30,10 @@ struct NisGroup {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Whether an innovation is of a prediction of the estimate; tentative ones are measured against what is no
+/// part of it.
+bool countsForNis(const Innovation& innovation);
+
 Measured<std::vector<NisGroup>> nisBySensor(const std::vector<InnovationRow>& innovations,
                                             double probability);
 

@@ -8,7 +8,7 @@
 
 namespace slamot::report {
 
-/// Runs of one configuration: they differ by seed or log alone.
+/// Runs of one configuration: they differ by log or seed alone, the estimator's or that of [clutter].
 struct RunGroup {
     std::string name;
     std::vector<RunFolder> runs;
@@ -21,20 +21,30 @@ std::vector<RunGroup> groupRuns(std::vector<RunFolder> runs);
 /// A metric of a group: the mean over its runs that have it, and half the width of its 95 % interval
 /// (Student's t; NaN for a single run).
 struct GroupValue {
-    std::size_t count = 0;
+    std::size_t count = 0;  ///< runs that have it
+    std::size_t of = 0;     ///< runs there are
     double mean = 0, half_width = 0;
-    bool best = false;  ///< better than every other group, or as good as the best of them
+    bool contests = false;  ///< every run is complete and has a value, so that the group can be the best
+    bool best = false;      ///< better than every other complete group, or as good as the best of them
 };
+
+/// Runs that came to the end of their log.
+std::size_t completeRuns(const RunGroup& group);
+
+/// "complete", a single run's status, or "2 of 3 complete".
+std::string statusOf(const RunGroup& group);
 
 struct ComparedMetric {
     std::string group, heading;
     std::vector<GroupValue> values;  ///< one for each group of runs
 };
 
-/// The metrics that any group has. None is best where only one group has a value or all are equal.
+/// The metrics that any group has. None is best where only one complete group has a value or all are equal; a
+/// group with a run that broke off, or without a value of each run, is never the best: what it lacks may be
+/// the worst.
 std::vector<ComparedMetric> compareMetrics(const std::vector<RunGroup>& groups);
 
-/// For the terminal: at most 80 columns, a star beside the best.
+/// For the terminal: at most 80 columns whatever the numbers are, a star beside the best.
 std::string comparisonText(const std::vector<RunGroup>& groups);
 
 Page comparisonPage(const std::vector<RunGroup>& groups);

@@ -49,9 +49,17 @@ struct PageFigure {
     std::string caption;
 };
 
+/// A box beside the replay.
+struct ReplayChoice {
+    std::string id, label;
+    bool on = true;
+};
+
 /// The replay of a run (assets/replay.js), its data as JSON.
 struct ReplayView {
     std::string alt, data;
+    std::string note;  ///< stands below
+    std::vector<ReplayChoice> choices;
     /// Name and colour of the modes of tracks.
     std::vector<std::pair<std::string, std::string>> modes;
 };

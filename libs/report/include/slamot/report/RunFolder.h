@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slamot/eval/Options.h"
 #include "slamot/eval/RunRecord.h"
 #include "slamot/eval/Trajectory.h"
 #include "slamot/rawlog/Truth.h"
@@ -38,11 +39,14 @@ struct CorrelationCells {
 struct RunFolder {
     std::string folder;
     nlohmann::json summary;
+    eval::EvaluationOptions evaluation;  ///< how the run was evaluated, or would be
     eval::RunRecord run;
+    bool map_known = false;  ///< landmarks.csv is there, so that what is not in it has left the map
     std::vector<LandmarkSight> sights;
     std::vector<StepRow> steps;
     std::optional<CorrelationCells> correlation;
     std::optional<Truth> truth;
+    std::string truth_folder;  ///< where it was read
     std::string why_no_truth;  ///< a clause, where there is none
 
     /// The robot's poses with their truth; none without truth.
@@ -55,11 +59,17 @@ struct RunFolder {
     /// "metrics/robot/position/rmse".
     std::optional<double> number(const std::string& path) const;
     std::string text(const std::string& name) const;
+    /// A whole number of summary.json in digits: seeds have 64 bits, more than a double. Empty where there is
+    /// none.
+    std::string digits(const std::string& path) const;
+    /// A list of summary.json; empty where it is absent or null.
+    nlohmann::json list(const std::string& name) const;
 };
 
-/// `truth_folder`: where truth is instead of where summary.json says the run had it; "none" for no truth. A
-/// truth that is no longer there is told in `why_no_truth`. Throws LogError naming file and line where a file
-/// is broken or no run has left `folder`.
+/// `truth_folder`: a truth instead of the one that summary.json says the run had, "none" for no truth;
+/// metrics are then those against it, or none. Where the run's own truth is gone or broken, `why_no_truth`
+/// says so. Throws LogError naming file and line where a file is broken, a truth that was asked for included,
+/// or no run has left `folder`.
 RunFolder readRunFolder(const std::string& folder, const std::string& truth_folder = {});
 
 }  // namespace slamot::report

@@ -62,6 +62,8 @@ class Sink {
     virtual void observation(const mrpt::obs::CObservation&) {}
     virtual void step(const Step& step) = 0;
     virtual void end(const RunEnd&) {}
+    /// Seconds that the sink held the run back for a person who watches: no part of what the run costs.
+    virtual double heldBack() const { return 0; }
 };
 
 }  // namespace slamot::run

@@ -1,0 +1,108 @@
+#include "sections/ReplayLayers.h"
+
+#include <cmath>
+
+#include "TrackStyles.h"
+#include "TrueOrigin.h"
+#include "sections/ReplayColumns.h"
+#include "slamot/core/data/Angle.h"
+
+namespace slamot::report {
+namespace {
+
+using nlohmann::json;
+
+json robotTruth(const ReplayScene& scene) {
+    ReplayColumns robot(scene.digits());
+    const Truth& truth = *scene.run.truth;
+    for (const std::size_t frame : scene.frames()) {
+        const auto& [stamp, estimate] = scene.run.run.trajectory[frame];
+        const auto pose = truth.pointAt(stamp);
+        robot.point(pose ? trueOrigin(pose->position(), truth.point, estimate.mean.theta)
+                         : Vector2::Constant(std::nan("")));
+    }
+    return robot.take();
+}
+
+json targetTruth(const ReplayScene& scene) {
+    std::map<SourceId, std::string> colours;
+    for (const StyledTrack& track : styledTracks(scene.run.run)) {
+        colours.try_emplace(track.source, track.style.colour);
+    }
+    json targets = json::array();
+    for (const auto& [id, samples] : scene.run.truth->targets) {
+        ReplayColumns target(scene.digits());
+        for (const Stamp stamp : scene.stamps()) {
+            const auto sample = scene.run.truth->targetAt(id, stamp);
+            target.point(sample ? sample->position : Vector2::Constant(std::nan("")));
+        }
+        json entry = target.take();
+        entry["colour"] = colours.count(id) > 0 ? colours.at(id) : colour::grey;
+        targets.push_back(std::move(entry));
+    }
+    return targets;
+}
+
+json truth(const ReplayScene& scene) {
+    if (!scene.run.truth) {
+        return nullptr;
+    }
+    ReplayColumns places(scene.digits());
+    for (const auto& [id, place] : scene.run.truth->landmarks) {
+        places.point(place);
+    }
+    json landmarks = {{"x", json::array()}, {"y", json::array()}};
+    landmarks.update(places.take());
+    return {{"robot", robotTruth(scene)}, {"targets", targetTruth(scene)}, {"landmarks", landmarks}};
+}
+
+json sight(const ReplayScene& scene) {
+    json sensors = json::array();
+    for (const auto& sensor : scene.run.list("sensors")) {
+        // null where there is no limit; without one of range no field of view is drawn
+        const auto number = [&](const char* name, double otherwise = 0) {
+            const auto found = sensor.find(name);
+            return found != sensor.end() && found->is_number() ? found->get<double>() : otherwise;
+        };
+        sensors.push_back({{"x", number("x")},
+                           {"y", number("y")},
+                           {"theta", number("theta")},
+                           {"range", number("max_range")},
+                           {"view", number("field_of_view", 2 * pi)}});
+    }
+    return {{"sensors", sensors}, {"seen", scene.seen()}};
+}
+
+json landmarks(const ReplayScene& scene) {
+    return scene.landmarks();
+}
+
+json tracks(const ReplayScene& scene) {
+    return scene.tracks();
+}
+
+json robot(const ReplayScene& scene) {
+    ReplayColumns columns(scene.digits());
+    for (const std::size_t frame : scene.frames()) {
+        const PoseGaussian& pose = scene.run.run.trajectory[frame].robot;
+        columns.point(pose.mean.position());
+        columns.add("theta", pose.mean.theta, 3);
+        columns.ellipse(pose.covariance.topLeftCorner<2, 2>());
+    }
+    return columns.take();
+}
+
+}  // namespace
+
+const std::vector<ReplayLayer>& replayLayers() {
+    static const std::vector<ReplayLayer> layers = {{"truth", "truth", true, truth},
+                                                    {"sight", "field of view and what is seen", true, sight},
+                                                    {"landmarks", "", true, landmarks},
+                                                    {"tracks", "", true, tracks},
+                                                    {"robot", "", true, robot},
+                                                    {"ellipses", "3σ ellipses", true, nullptr},
+                                                    {"follow", "follow the robot", false, nullptr}};
+    return layers;
+}
+
+}  // namespace slamot::report
