@@ -12,8 +12,8 @@
 namespace slamot {
 namespace {
 
-/// Of the differences between two detections of one place.
-constexpr double same_place_probability = 0.999;
+/// Squared distance of two detections of one place: 99.9 % are below.
+const double same_place = chiSquareQuantile(0.999, 2);
 
 class Evidence {
   public:
@@ -42,15 +42,16 @@ class Evidence {
         return std::any_of(given.begin(), given.end(),
                            [&](int c) { return problem_.candidate(c).object == object; });
     }
-    /// Whether `c` is of another object, elsewhere, for the detection of `pair`.
-    bool isRival(int c, int pair);
+    /// The innovation of a pair; none where it says nothing new.
+    std::optional<Vector2> innovation(int pair);
+    /// The rivals of a pair: other objects for its detection, elsewhere.
+    std::vector<int> rivals(int pair);
     /// The likeliest way to explain the detections of `pairs`, the first one by `first`.
     double likeliest(int first, const std::vector<int>& pairs);
 
     const AssociationProblem& problem_;
     const DecisionModel& model_;
     InnovationFactor given_;
-    const double same_place_ = chiSquareQuantile(same_place_probability, 2);
 };
 
 std::optional<double> Evidence::push(int pair) {
@@ -62,16 +63,25 @@ std::optional<double> Evidence::push(int pair) {
            std::log(model_.detection.clutter_density[static_cast<std::size_t>(c.detection)] * places);
 }
 
-bool Evidence::isRival(int c, int pair) {
-    const Candidate& rival = problem_.candidate(c);
-    if (c == pair || !model_.may_be_rivals[static_cast<std::size_t>(rival.object)]) return false;
-    if (!push(pair)) return false;
-    Vector2 apart = given_.conditional().residual;
+std::optional<Vector2> Evidence::innovation(int pair) {
+    if (!push(pair)) return std::nullopt;
+    const Vector2 residual = given_.conditional().residual;
     pop(1);
-    if (!push(c)) return false;
-    apart -= given_.conditional().residual;
-    pop(1);
-    return apart.dot(noiseOf(rival).llt().solve(apart)) > same_place_;
+    return residual;
+}
+
+std::vector<int> Evidence::rivals(int pair) {
+    const Candidate& chosen = problem_.candidate(pair);
+    const std::optional<Vector2> here = innovation(pair);
+    const Eigen::LLT<Matrix2> R(noiseOf(chosen));
+    std::vector<int> out;
+    for (int c = problem_.first(chosen.detection); here && c < problem_.first(chosen.detection + 1); ++c) {
+        if (c == pair || !model_.may_be_rivals[static_cast<std::size_t>(problem_.candidate(c).object)])
+            continue;
+        const std::optional<Vector2> there = innovation(c);
+        if (there && (*there - *here).dot(R.solve(*there - *here)) > same_place) out.push_back(c);
+    }
+    return out;
 }
 
 double Evidence::likeliest(int first, const std::vector<int>& pairs) {
@@ -112,11 +122,8 @@ double Evidence::of(const std::vector<int>& pairs) {
     if (pushed == 0) return -std::numeric_limits<double>::infinity();
 
     double others = std::exp(-log_odds);
-    for (const int pair : pairs) {
-        const int detection = problem_.candidate(pair).detection;
-        for (int c = problem_.first(detection); c < problem_.first(detection + 1); ++c)
-            if (isRival(c, pair)) others += std::exp(likeliest(c, pairs) - log_odds);
-    }
+    for (const int pair : pairs)
+        for (const int rival : rivals(pair)) others += std::exp(likeliest(rival, pairs) - log_odds);
     return -std::log(others);
 }
 
