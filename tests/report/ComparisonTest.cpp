@@ -20,6 +20,17 @@ std::string rmse(const std::string& value) {
            R"(}}, "robot_nees": {"average": 6, "mean_dimension": 3}})";
 }
 
+void expectEightyColumns(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t columns = 0;
+        for (const char c : line) {
+            columns += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+        }
+        EXPECT_LE(columns, 80u) << line;
+    }
+}
+
 /// Folders NAME within one temporary folder.
 class Comparison : public ::testing::Test {
   protected:
@@ -133,17 +144,6 @@ TEST_F(Comparison, seedsOf64BitsKeepEveryDigit) {
     EXPECT_THAT(html, ::testing::Not(HasSubstr("9007199254740992")));
 }
 
-void expectEightyColumns(const std::string& text) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::size_t columns = 0;
-        for (const char c : line) {
-            columns += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-        }
-        EXPECT_LE(columns, 80u) << line;
-    }
-}
-
 TEST_F(Comparison, theTableFitsEightyColumns) {
     const std::string text = comparisonText(seedsAndOne());
     expectEightyColumns(text);
@@ -171,14 +171,89 @@ TEST(Text, isCutBetweenCharacters) {
     EXPECT_EQ(codePoints("aäöü"), 4u);
 }
 
-TEST_F(Comparison, thePageWarnsOfOtherLogs) {
-    const auto page = [&](const std::string& log) {
-        return toHtml(
-            comparisonPage(groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"))),
-                                      run("two", withKey(test::summaryJson(log, rmse("2")), "2"))})));
+TEST_F(Comparison, runsOfOtherLogsAreSaidAndNoneIsTheBest) {
+    const auto groups = [&](const std::string& log) {
+        return groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"))),
+                          run("two", withKey(test::summaryJson(log, rmse("2")), "2"))});
     };
-    EXPECT_THAT(page("b.rawlog"), HasSubstr("not of the same logs"));
-    EXPECT_THAT(page("a.rawlog"), ::testing::Not(HasSubstr("not of the same logs")));
+    const std::vector<RunGroup> same = groups("a.rawlog"), other = groups("b.rawlog");
+    for (const std::string& shown : {toHtml(comparisonPage(other)), comparisonText(other)}) {
+        EXPECT_THAT(shown, HasSubstr("not of the same logs"));
+    }
+    EXPECT_FALSE(metric(compareMetrics(other), "position RMSE [m]").values[0].best);
+    for (const std::string& shown : {toHtml(comparisonPage(same)), comparisonText(same)}) {
+        EXPECT_THAT(shown, ::testing::Not(HasSubstr("not of the same logs")));
+    }
+    EXPECT_TRUE(metric(compareMetrics(same), "position RMSE [m]").values[0].best);
+}
+
+TEST_F(Comparison, aLogIsTheSameHoweverItIsCalled) {
+    folder_.write("a.rawlog", "");
+    const std::vector<RunGroup> groups =
+        groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"))),
+                   run("two", withKey(test::summaryJson(folder_.path("a.rawlog"), rmse("2")), "2"))});
+    EXPECT_THAT(comparisonNotes(groups), ::testing::IsEmpty());
+}
+
+TEST_F(Comparison, aRunThatRepeatsAnotherIsLeftOut) {
+    std::vector<RunFolder> runs = {run("one", test::summaryJson("a.rawlog", rmse("1"), "1")),
+                                   run("two", test::summaryJson("a.rawlog", rmse("1"), "1")),
+                                   run("three", test::summaryJson("a.rawlog", rmse("1"), "2"))};
+    const std::vector<std::string> notes = dropRepeats(runs);
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_EQ(runs[0].text("seed") + runs[0].digits("seed"), "1");
+    EXPECT_EQ(runs[1].digits("seed"), "2");
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_THAT(notes[0], ::testing::MatchesRegex(".*two repeats .*one .*"));
+}
+
+TEST_F(Comparison, settingsThatDifferAreSaid) {
+    std::string other = test::summaryJson("a.rawlog", rmse("1"), "1");
+    const std::string end = R"(\n", "counts")";
+    other.replace(other.find(end), end.size(), R"(\n[eval]\nlandmark_cutoff = 3\n", "counts")");
+    std::string foreign = test::summaryJson("a.rawlog", rmse("1"), "1");
+    for (std::size_t at = 0; (at = foreign.find("my_estimator", at)) != std::string::npos;) {
+        foreign.replace(at, 12, "another");
+    }
+    const std::vector<RunGroup> groups =
+        groupRuns({run("one", test::summaryJson("a.rawlog", rmse("1"), "1")),
+                   run("two", withKey(other, "a_value_of_very_many_letters")), run("three", foreign)});
+    std::vector<std::string> rows;
+    for (const ComparedSetting& setting : compareSettings(groups)) {
+        std::string row = setting.section + "/" + setting.key;
+        for (const std::string& value : setting.values) {
+            row += "|" + value;
+        }
+        rows.push_back(row);
+    }
+    // The key of `another` is that estimator's alone, so there is nothing to compare it with.
+    EXPECT_THAT(rows, ::testing::ElementsAre("eval/landmark_cutoff||3|",
+                                             "my_estimator/key|1|a_value_of_very_many_letters|",
+                                             "run/estimator|my_estimator|my_estimator|another"));
+    const std::string text = comparisonText(groups);
+    expectEightyColumns(text);
+    EXPECT_THAT(text, HasSubstr("  [eval]\n    landmark_cutoff "));
+    EXPECT_THAT(text, HasSubstr("a_value_of_v.."));
+    EXPECT_THAT(toHtml(comparisonPage(groups)), HasSubstr("[my_estimator] key"));
+}
+
+TEST_F(Comparison, timesOfSingleRunsAreNotCompared) {
+    const auto time = [](const std::vector<ComparedMetric>& metrics) {
+        for (const ComparedMetric& row : metrics) {
+            if (row.heading == "step time, mean [ms]") {
+                return row.values;
+            }
+        }
+        return std::vector<GroupValue>();
+    };
+    const auto with = [](const std::string& seed, const std::string& key, const std::string& ms) {
+        std::string summary = withKey(test::summaryJson("a.rawlog", rmse("1"), seed), key);
+        return summary.replace(summary.find("0.25"), 4, ms);
+    };
+    const RunFolder one = run("a1", with("1", "1", "0.25")), two = run("a2", with("2", "1", "0.25")),
+                    three = run("b1", with("1", "2", "0.5")), four = run("b2", with("2", "2", "0.5"));
+    EXPECT_FALSE(time(compareMetrics(groupRuns({one, three})))[0].best);
+    EXPECT_TRUE(time(compareMetrics(groupRuns({one, two, three, four})))[0].best);
 }
 
 TEST_F(Comparison, truthMeasuredAtAPointIsDrawnAtTheOrigin) {

@@ -146,12 +146,12 @@ TEST(Overview, anEmptyRunIsAnEmptyMap) {
 }
 
 TEST(OverviewView, farLandmarksDoNotShrinkTheView) {
-    Points2 landmarks;
+    std::vector<MapObject> landmarks;
     for (int i = 0; i < 98; ++i) {
-        landmarks.emplace_back(0.1 * i, 5);  // 0 to 9.7 m
+        landmarks.push_back({{0.1 * i, 5}});  // 0 to 9.7 m
     }
-    landmarks.emplace_back(11, 0);  // of the furthest 2 % too, but near enough to stay
-    landmarks.emplace_back(0, -1e6);
+    landmarks.push_back({{11, 0}});  // of the furthest 2 % too, but near enough to stay
+    landmarks.push_back({{0, -1e6}});
     const MapView view = mapView({{0, 0}, {10, 10}}, landmarks);
     EXPECT_EQ(view.outside, 1u);
     EXPECT_EQ(view.low, Eigen::Vector2d(0, 0));
@@ -159,9 +159,9 @@ TEST(OverviewView, farLandmarksDoNotShrinkTheView) {
 }
 
 TEST(OverviewView, ordinaryLandmarksAllStayInView) {
-    Points2 landmarks;
+    std::vector<MapObject> landmarks;
     for (int i = 0; i < 100; ++i) {
-        landmarks.emplace_back(0.1 * i, 12 - 0.1 * i);
+        landmarks.push_back({{0.1 * i, 12 - 0.1 * i}});
     }
     const MapView view = mapView({{0, 0}, {10, 10}}, landmarks);
     EXPECT_EQ(view.outside, 0u);
@@ -172,8 +172,21 @@ TEST(OverviewView, whatDefinesTheViewLiesWithinIt) {
     // 0.1 and 0.7 have no exact middle: a view made from the middle and half the size could miss its own
     // corners.
     for (int i = 1; i < 50; ++i) {
-        EXPECT_EQ(mapView({}, {{0.1 * i, -0.3 * i}, {70.7 * i, 90.1 * i}}).outside, 0u) << i;
+        EXPECT_EQ(mapView({}, {{{0.1 * i, -0.3 * i}}, {{70.7 * i, 90.1 * i}}}).outside, 0u) << i;
     }
+}
+
+TEST(OverviewView, ellipsesAreWholeUnlessTheyAreHuge) {
+    const Eigen::Matrix2d small = Eigen::Vector2d(0.01, 0.04).asDiagonal();  // 3 sigma: 0.3 and 0.6 m
+    const Eigen::Matrix2d huge = 100 * Eigen::Matrix2d::Identity();
+    const Points2 way = {{0, 0}, {10, 10}};
+    const MapView with_small = mapView(way, {mapObject({0, 10}, small)});
+    EXPECT_NEAR(with_small.low.x(), -0.3, 1e-12);
+    EXPECT_NEAR(with_small.high.y(), 10.6, 1e-12);
+    EXPECT_EQ(with_small.low.y(), 0);
+    const MapView with_huge = mapView(way, {mapObject({0, 10}, huge)});
+    EXPECT_NEAR(with_huge.low.x(), -1, 1e-12);  // a tenth of the 10 m
+    EXPECT_NEAR(with_huge.high.y(), 11, 1e-12);
 }
 
 TEST(OverviewView, aStandingRobotHasRoomAroundIt) {

@@ -49,7 +49,7 @@ TEST(Page, everythingOfItIsText) {
                      json({{"text", evil}}).dump(),
                      evil,
                      {{evil, evil, true}},
-                     {{evil, "#000000"}, {evil, "#000000"}}}}});
+                     {{ReplayKey::Symbol::disc, evil, evil}}}}});
     EXPECT_THAT(toHtml(page), Not(HasSubstr("<script>alert")));
 }
 

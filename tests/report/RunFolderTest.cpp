@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 
 #include "report/RunFiles.h"
 #include "slamot/rawlog/LogError.h"
@@ -57,6 +58,48 @@ TEST(RunFolder, saysWhereTruthThatIsGoneWas) {
     test::writeRun(folder, summary);
     EXPECT_THAT(readRunFolder(folder.path()).why_no_truth, HasSubstr("no/such.truth"));
     EXPECT_THROW(readRunFolder(folder.path(), "no/such.truth"), LogError);  // asked for: an error
+}
+
+std::string withTruth(const std::string& truth, const std::string& directory = {}) {
+    std::string summary = test::summaryJson();
+    const std::string none = R"("truth": null)";
+    const std::string started = directory.empty() ? "" : R"("directory": ")" + directory + R"(", )";
+    return summary.replace(summary.find(none), none.size(), started + R"("truth": ")" + truth + '"');
+}
+
+TEST(RunFolder, relativePathsStartWhereTheRunWasStarted) {
+    const TemporaryFolder folder, started;
+    std::filesystem::create_directory(started.path("t"));
+    started.write("t/robot.csv", "t,x,y,theta\n1000.0000000,7,0,0\n");
+    started.write("t/truth.json", "{}");
+    started.write("my.rawlog", "");
+    test::writeRun(folder, withTruth("t", started.path()));
+    const RunFolder run = readRunFolder(folder.path());
+    ASSERT_TRUE(run.truth) << run.why_no_truth;
+    EXPECT_EQ(run.truth->robot.at(0).pose.x, 7);
+    EXPECT_EQ(run.truth_folder, "t");
+    EXPECT_EQ(run.log_file, started.path("my.rawlog"));
+}
+
+TEST(RunFolder, truthThatWasMovedAlongIsFoundAboveTheRun) {
+    const TemporaryFolder all;
+    for (const char* name : {"t", "out", "out/run"}) {
+        std::filesystem::create_directory(all.path(name));
+    }
+    all.write("t/robot.csv", "t,x,y,theta\n1000.0000000,7,0,0\n");
+    all.write("t/truth.json", "{}");
+    all.write("out/run/trajectory.csv", test::trajectory_csv);
+    all.write("out/run/summary.json", withTruth("t", "/no/such/folder"));
+    const RunFolder run = readRunFolder(all.path("out/run"));
+    EXPECT_TRUE(run.truth) << run.why_no_truth;
+    EXPECT_FALSE(run.lost_truth);
+    EXPECT_EQ(run.log_file, "my.rawlog");  // not moved along
+}
+
+TEST(RunFolder, saysThatARunWasKilled) {
+    const TemporaryFolder folder;
+    folder.write("trajectory.csv", test::trajectory_csv);
+    EXPECT_THAT(errorOf(folder.path()), HasSubstr("was killed"));
 }
 
 TEST(RunFolder, aBrokenTruthOfTheRunIsASentenceAndOneAskedForAnError) {

@@ -261,6 +261,9 @@ TEST_F(CsvSinksTest, AFileIsPartUntilItIsClosed) {
 
 TEST_F(CsvSinksTest, AFileThatCannotBeWrittenIsAnError) {
     EXPECT_THAT(messageOf<LogError>([&] { PartFile(path("none/a.csv")); }), HasSubstr("none/a.csv"));
+    std::filesystem::create_directory(path("folder"));
+    EXPECT_THAT(messageOf<LogError>([&] { PartFile(path("folder")); }), HasSubstr("is a folder"));
+    EXPECT_FALSE(std::filesystem::exists(path("folder.part")));
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     fs::create_symlink("/dev/full", path("full.csv.part"));
     PartFile file(path("full.csv"));

@@ -245,5 +245,16 @@ TEST(Checks, TableSaysWhatWasChecked) {
               "classic\",2.0833333333333335,0,0.65,FAILED,the aim,\n");
 }
 
+TEST(Checks, TerminalHasEightyColumns) {
+    CheckReport report;
+    report.results.push_back({"c", "mean ratio of RMSE of the robot's position, a world with a long name, this to that",
+                              CheckState::failed, 2.0833333, {0, 0.65}, "", "the aim that was set for this one"});
+    EXPECT_EQ(toTerminal(report),
+              "FAILED       c\n"
+              "    mean ratio of RMSE of the robot's position, a world with a long name, this\n"
+              "      to that: 2.0833, expected 0 to 0.65\n"
+              "    the aim that was set for this one\n");
+}
+
 }  // namespace
 }  // namespace slamot::study

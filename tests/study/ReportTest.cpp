@@ -46,7 +46,7 @@ TEST_F(StudyReport, hasTheTablesOfTheStudyFileAsText) {
 
 TEST_F(StudyReport, saysOnceHowItIsMadeAgain) {
     const std::string html = page();
-    EXPECT_THAT(html, HasSubstr("Filled on 2026-01-31, Some CPU, 2 cores"));
+    EXPECT_THAT(html, HasSubstr("Made on 2026-01-31, Some CPU, 2 cores"));
     EXPECT_THAT(html, HasSubstr("from 2 runs.</p>"));
     EXPECT_THAT(html, HasSubstr(">slamot study demo.ini --db demo.db --report page.html</pre>"));
 }

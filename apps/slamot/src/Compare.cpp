@@ -16,6 +16,7 @@ int compareJob(const Options& options, const Verbosity& verbosity) {
     std::vector<report::RunFolder> runs;
     for (const std::string& folder : options.runs)
         runs.push_back(report::readRunFolder(folder, options.truth));
+    for (const std::string& note : report::dropRepeats(runs)) fmt::print(stderr, "slamot: {}\n", note);
     const std::vector<report::RunGroup> groups = report::groupRuns(std::move(runs));
     const report::Page page = report::comparisonPage(groups);
     report::writePage(page, options.out);
@@ -29,8 +30,8 @@ int compareJob(const Options& options, const Verbosity& verbosity) {
 void addCompare(CLI::App& app, Action& chosen) {
     auto* command =
         app.add_subcommand("compare",
-                           "Runs side by side: one table, one page. Runs that differ by seed or log alone "
-                           "are taken together.\nExample: slamot compare out/p1 out/p1_classic -o p1.html");
+                           "Runs side by side: one table, one page. Runs of one configuration that differ by seed "
+                           "or log alone are taken together.\nExample: slamot compare out/p1 out/p1_classic -o p1.html");
     auto options = std::make_shared<Options>();
     command->add_option("runs", options->runs, "Output folders of runs")->required();
     command->add_option("--truth", options->truth,

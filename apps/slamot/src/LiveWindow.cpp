@@ -5,7 +5,7 @@
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/gui/keycodes.h>
 #include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/stock_objects.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/system/CObserver.h>
 
 #include <algorithm>
@@ -28,6 +28,9 @@ using mrpt::img::TColor;
 namespace colour = run::shape_colour;
 using run::makeEllipse;
 using run::placeEllipse;
+
+/// Dark as on the page of a run: the background is light, unlike that of SceneViewer3D.
+const TColor landmark_colour(34, 34, 34);
 
 /// Times real time; the last is as fast as can be.
 constexpr std::array<double, 8> speeds{1, 2, 5, 10, 20, 50, 100, 0};
@@ -54,6 +57,19 @@ mrpt::opengl::CSetOfLines::Ptr makeLines(const TColor& line_colour, float width)
     lines->setColor_u8(line_colour);
     lines->setLineWidth(width);
     return lines;
+}
+
+/// The robot's mark, a metre long, as on the page of a run.
+mrpt::opengl::CSetOfTriangles::Ptr makeArrow(const TColor& arrow_colour) {
+    const mrpt::math::TPoint3Df tip{0.5f, 0, 0}, left{-0.35f, 0.35f, 0}, notch{-0.2f, 0, 0}, right{-0.35f, -0.35f, 0};
+    auto arrow = mrpt::opengl::CSetOfTriangles::Create();
+    arrow->enableLight(false);
+    for (const auto& [a, b, c] : {std::array{tip, left, notch}, std::array{tip, notch, right}}) {
+        mrpt::opengl::TTriangle triangle(a, b, c);
+        triangle.setColor(arrow_colour);
+        arrow->insertTriangle(triangle);
+    }
+    return arrow;
 }
 
 void extend(mrpt::opengl::CSetOfLines& way, const Vector2& p) {
@@ -108,7 +124,7 @@ struct LiveWindow::Impl {
     CloseRequest close_request;
     std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed
     mrpt::opengl::CSetOfObjects::Ptr world = mrpt::opengl::CSetOfObjects::Create();
-    mrpt::opengl::CSetOfObjects::Ptr robot = mrpt::opengl::stock_objects::RobotPioneer();
+    mrpt::opengl::CSetOfTriangles::Ptr robot = makeArrow(colour::robot);
     mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(colour::robot);
     mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(colour::robot, 2.5f),
                                    sight = makeLines(colour::sight, 1.0f);
@@ -236,7 +252,7 @@ struct LiveWindow::Impl {
 
     void drawRobot(const PoseGaussian& pose) {
         placeEllipse(*robot_ellipse, pose.mean.position(), pose.covariance.topLeftCorner<2, 2>());
-        robot->setScale(static_cast<float>(std::max(1.0, reach / 20)));  // to be seen
+        robot->setScale(static_cast<float>(std::max(0.5, reach / 15)));  // to be seen
         robot->setPose(mrpt::poses::CPose3D(pose.mean.x, pose.mean.y, 0, pose.mean.theta, 0, 0));
     }
 
@@ -253,7 +269,7 @@ struct LiveWindow::Impl {
         for (const auto& [id, landmark] : changed) {
             auto& ellipse = landmarks[id];
             if (!ellipse) {
-                ellipse = makeEllipse(colour::landmark);
+                ellipse = makeEllipse(landmark_colour);
                 world->insert(ellipse);
             }
             placeEllipse(*ellipse, landmark.mean, landmark.covariance);
@@ -263,16 +279,16 @@ struct LiveWindow::Impl {
 
     void show(const Estimate& estimate) {
         const double factor = speeds[speed];
-        window->addTextMessage(
-            10, 10,
-            fmt::format("{:.1f} s  {}  {} landmarks, {} tracks   [space] pause  [s] step  [+ -] speed  [f] "
-                        "follow{}  [q] close",
-                        secondsBetween(start, estimate.stamp),
-                        paused       ? std::string("paused")
-                        : factor > 0 ? fmt::format("x{:.0f}", factor)
-                                     : "fastest",
-                        estimate.landmark_count, estimate.tracks.size(), follow ? " on" : " off"),
-            0, dark_text);
+        const std::string pace_text = factor > 0 ? fmt::format("x{:.0f}", factor) : "fastest";
+        window->addTextMessage(10, 26,
+                               fmt::format("{:.1f} s  {}{}  {} landmarks, {} tracks",
+                                           secondsBetween(start, estimate.stamp), pace_text,
+                                           paused ? ", paused" : "", estimate.landmark_count, estimate.tracks.size()),
+                               0, dark_text);
+        window->addTextMessage(10, 8,
+                               fmt::format("[space] pause  [s] step  [+ -] speed  [f] follow{}  [q] close",
+                                           follow ? " on" : " off"),
+                               1, dark_text);
         const Vector2 at = estimate.robot.mean.position();
         if (follow || !was_placed) {
             window->setCameraPointingToPoint(static_cast<float>(at.x()), static_cast<float>(at.y()), 0);

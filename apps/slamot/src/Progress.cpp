@@ -1,18 +1,30 @@
 #include "Progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
+#include "slamot/eval/TerminalText.h"
+
 namespace slamot::app {
+namespace {
+
+std::size_t columnsOfTerminal() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    return std::min(known ? size.ws_col : eval::terminal_width, eval::terminal_width);
+}
+
+}  // namespace
 
 Progress::Progress(std::string what, bool quiet)
     : what_(std::move(what)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_(begin_) {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "\r{:79}\r", "");
+    if (drawn_ > 0) fmt::print(stderr, "\r{:{}}\r", "", drawn_);
 }
 
 void Progress::show(double done, const std::string& detail) {
@@ -32,9 +44,11 @@ void Progress::show(double done, const std::string& detail) {
     }
     constexpr int width = 24;
     const auto filled = static_cast<std::size_t>(part * width);
-    fmt::print(stderr, "\r[{:<{}}] {:<50}", std::string(filled, '#'), width, text);
+    // A line that is longer than the terminal would begin a new one each time.
+    const std::string line = fmt::format("[{:<{}}] {:<50}", std::string(filled, '#'), width, text);
+    drawn_ = columnsOfTerminal() - 1;
+    fmt::print(stderr, "\r{}", line.substr(0, drawn_));
     std::fflush(stderr);
-    drawn_ = true;
 }
 
 }  // namespace slamot::app

@@ -15,7 +15,8 @@ class Progress {
    private:
     using Clock = std::chrono::steady_clock;
     std::string what_;
-    bool quiet_, terminal_, drawn_ = false;
+    bool quiet_, terminal_;
+    std::size_t drawn_ = 0;  ///< columns
     Clock::time_point begin_, last_;
 };
 

@@ -12,7 +12,9 @@ struct Options {
 };
 
 int reportJob(const Options& options, const Verbosity& verbosity) {
-    const report::Page page = report::runPage(report::readRunFolder(options.run, options.truth));
+    const report::RunFolder run = report::readRunFolder(options.run, options.truth);
+    if (run.lost_truth) fmt::print(stderr, "slamot: the page is without truth: {}\n", run.why_no_truth);
+    const report::Page page = report::runPage(run);
     const std::string file = options.out.empty() ? options.run + "/report.html" : options.out;
     report::writePage(page, file);
     if (!verbosity.quiet) fmt::print("{}\n", file);

@@ -6,6 +6,7 @@
 #include "LiveWindow.h"
 #include "LogGuard.h"
 #include "Progress.h"
+#include "slamot/eval/TerminalText.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/report/Overview.h"
 #include "slamot/report/RunReport.h"
@@ -53,10 +54,15 @@ void writeReport(const Options& options) {
 void printSummary(const run::JobResult& result, const Options& options, const Verbosity& verbosity) {
     const auto& counts = result.summary["counts"];
     const auto& time = result.summary["time"];
-    fmt::print("{} on {}: {}\n", result.summary["estimator"].get<std::string>(), options.log, toText(result.status));
-    fmt::print("  {} odometry entries, {} detections in {} sets; {} landmarks, {} tracks at the end\n",
-               counts["odometry"].get<long>(), counts["detections"].get<long>(), counts["detection_sets"].get<long>(),
-               counts["landmarks"].get<long>(), counts["tracks_at_end"].get<long>());
+    fmt::print("{}", eval::wrapped(fmt::format("{} on {}: {}", result.summary["estimator"].get<std::string>(),
+                                               options.log, toText(result.status))));
+    const auto counted = [&counts](const char* name, const char* one, const char* many) {
+        const long count = counts[name].get<long>();
+        return fmt::format("{} {}", count, count == 1 ? one : many);
+    };
+    fmt::print("  {}, {} in {};\n  {} and {} at the end\n", counted("odometry", "odometry entry", "odometry entries"),
+               counted("detections", "detection", "detections"), counted("detection_sets", "set", "sets"),
+               counted("landmarks", "landmark", "landmarks"), counted("tracks_at_end", "track", "tracks"));
     fmt::print("  detections used {}, down-weighted {}, rejected {}, tentative {}, ignored {}\n",
                counts["detections_used"].get<long>(), counts["detections_inflated"].get<long>(),
                counts["detections_rejected"].get<long>(), counts["detections_tentative"].get<long>(),
@@ -65,7 +71,7 @@ void printSummary(const run::JobResult& result, const Options& options, const Ve
         fmt::print("  dropped: {} of '{}' ({})\n", drop["count"].get<long>(), drop["sensor"].get<std::string>(),
                    drop["reason"].get<std::string>());
     if (verbosity.verbose)
-        fmt::print("  {:.2f} s, of which predict {:.2f}, detect {:.2f}, update {:.2f}; peak memory {:.0f} MB\n",
+        fmt::print("  {:.2f} s, of it predict {:.2f}, detect {:.2f}, update {:.2f}; peak memory {:.0f} MB\n",
                    time["wall_s"].get<double>(), time["predict_s"].get<double>(), time["detect_s"].get<double>(),
                    time["update_s"].get<double>(), result.summary["peak_memory_mb"].get<double>());
     if (!result.metrics_table.empty())

@@ -148,7 +148,7 @@ bool tellFindings(const study::Session& session, const study::Analysis& analysis
     study::CheckReport checks;
     if (options.check) {
         checks = study::runChecks(analysis, session.plan(), rows, options.session.short_form);
-        fmt::print("{}", study::toMarkdown(study::checkTable(checks)));
+        fmt::print("{}", study::toTerminal(checks));
     }
     if (!options.export_folder.empty()) study::exportStudy(findings, options.export_folder);
     for (const std::string& page : options.pages)

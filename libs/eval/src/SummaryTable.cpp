@@ -5,11 +5,12 @@
 
 #include "slamot/core/data/Angle.h"
 #include "slamot/eval/Metrics.h"
+#include "slamot/eval/TerminalText.h"
 
 namespace slamot::eval {
 namespace {
 
-constexpr std::size_t width = 80, cell_width = 8;
+constexpr std::size_t cell_width = 8;
 
 /// One block of the table: a head and rows of a name and right-aligned cells, 32 + 5 x 9 columns at most.
 class Block {
@@ -174,21 +175,6 @@ Block trajectoryBlock(const Metrics& m) {
                                  d.total == d.lower_bound ? "exact" : percent(d.lower_bound / d.total),
                                  cell(t.cardinality.mean), cell(t.cardinality.mean_absolute)};
                          });
-}
-
-/// Words on lines of at most `width` columns, those after the first indented by four.
-std::string wrapped(const std::string& text) {
-    std::istringstream in(text);
-    std::string word, line, all;
-    while (in >> word) {
-        if (!line.empty() && line.size() + 1 + word.size() > width) {
-            all += line + "\n";
-            line = "    " + word;
-        } else {
-            line += (line.empty() ? "" : " ") + word;
-        }
-    }
-    return all + line + "\n";
 }
 
 /// What there is no metric of, equal reasons said once.

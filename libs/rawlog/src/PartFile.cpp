@@ -16,7 +16,9 @@ void finishPart(const std::string& file) {
     if (error) throw LogError(file + ": cannot be renamed from .part (" + error.message() + ")");
 }
 
-PartFile::PartFile(const std::string& file) : file_(file), out_(partOf(file), std::ios::binary) {
+PartFile::PartFile(const std::string& file) : file_(file) {
+    if (std::filesystem::is_directory(file)) throw LogError(file + ": is a folder, expected a file to write");
+    out_.open(partOf(file), std::ios::binary);
     if (!out_) throw LogError(file + ": cannot be written");
 }
 

@@ -5,46 +5,13 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <map>
+#include <set>
 
-#include "ConfigLines.h"
 #include "MetricRows.h"
 
 namespace slamot::report {
 namespace {
-
-std::string folderName(const RunFolder& run) {
-    const std::filesystem::path path = std::filesystem::path(run.folder).lexically_normal();
-    return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
-}
-
-/// The settings without seeds.
-std::string settingsOf(const RunFolder& run) {
-    std::string settings;
-    forEachConfigLine(run.text("config"),
-                      [&](const std::string& section, const std::string& key, const std::string& line) {
-                          if (key != "seed" || (section != "run" && section != "clutter")) {
-                              settings += line + "\n";
-                          }
-                      });
-    return settings;
-}
-
-/// What all names begin with, without the number or mark that it ends in.
-std::string commonName(const std::vector<RunFolder>& runs) {
-    std::string common = folderName(runs.front());
-    for (const RunFolder& run : runs) {
-        const std::string name = folderName(run);
-        const auto differ = std::mismatch(common.begin(), common.end(), name.begin(), name.end());
-        common.erase(differ.first, common.end());
-    }
-    while (!common.empty() && std::string("_-. 0123456789").find(common.back()) != std::string::npos) {
-        common.pop_back();
-    }
-    return common.empty() ? runs.front().text("estimator") : common;
-}
 
 bool isComplete(const RunFolder& run) {
     return run.text("status") == "complete";
@@ -60,7 +27,8 @@ GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
     GroupValue result;
     result.count = values.size();
     result.of = group.runs.size();
-    result.contests = result.count == result.of && completeRuns(group) == result.of;
+    result.contests =
+        result.count == result.of && completeRuns(group) == result.of && result.of >= row.least_runs;
     const auto n = static_cast<double>(values.size());
     result.half_width = std::numeric_limits<double>::quiet_NaN();
     for (const double value : values) {
@@ -79,7 +47,8 @@ GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
 
 void markBest(const MetricRow& row, std::vector<GroupValue>& values) {
     const auto beats = [&](const GroupValue& a, const GroupValue& b) {
-        return a.contests && b.contests && isBetter(row, a.mean, b.mean);
+        return a.contests && b.contests && shortNumber(a.mean) != shortNumber(b.mean) &&
+               isBetter(row, a.mean, b.mean);
     };
     const bool differ = std::any_of(values.begin(), values.end(), [&](const GroupValue& a) {
         return std::any_of(values.begin(), values.end(), [&](const GroupValue& b) { return beats(a, b); });
@@ -89,6 +58,19 @@ void markBest(const MetricRow& row, std::vector<GroupValue>& values) {
                      std::none_of(values.begin(), values.end(),
                                   [&](const GroupValue& other) { return beats(other, value); });
     }
+}
+
+std::set<std::string> logsOf(const RunGroup& group) {
+    std::set<std::string> logs;
+    for (const RunFolder& run : group.runs) {
+        logs.insert(run.log_file);
+    }
+    return logs;
+}
+
+bool areOfTheSameLogs(const std::vector<RunGroup>& groups) {
+    return std::all_of(groups.begin(), groups.end(),
+                       [&](const RunGroup& g) { return logsOf(g) == logsOf(groups.front()); });
 }
 
 }  // namespace
@@ -106,34 +88,32 @@ std::string statusOf(const RunGroup& group) {
     return all > 1 ? fmt::format("{} of {} complete", complete, all) : one.empty() ? "not known" : one;
 }
 
-std::vector<RunGroup> groupRuns(std::vector<RunFolder> runs) {
-    std::vector<RunGroup> groups;
-    std::map<std::string, std::size_t> place;
-    for (RunFolder& run : runs) {
-        const auto [found, is_new] = place.try_emplace(settingsOf(run), groups.size());
-        if (is_new) {
-            groups.emplace_back();
-        }
-        groups[found->second].runs.push_back(std::move(run));
+std::vector<std::string> comparisonNotes(const std::vector<RunGroup>& groups) {
+    std::vector<std::string> notes;
+    if (!areOfTheSameLogs(groups)) {
+        notes.push_back("These runs are not of the same logs, so none is marked as the best.");
     }
-    std::map<std::string, int> used;
-    for (RunGroup& group : groups) {
-        group.name = group.runs.size() == 1 ? folderName(group.runs.front()) : commonName(group.runs);
-        if (const int times = ++used[group.name]; times > 1) {
-            group.name += fmt::format(" ({})", times);
+    for (const RunGroup& group : groups) {
+        for (const RunFolder& run : group.runs) {
+            if (run.lost_truth) {
+                notes.push_back(fmt::format("{}: plots are without truth: {}.", run.folder, run.why_no_truth));
+            }
         }
     }
-    return groups;
+    return notes;
 }
 
 std::vector<ComparedMetric> compareMetrics(const std::vector<RunGroup>& groups) {
     std::vector<ComparedMetric> compared;
+    const bool comparable = areOfTheSameLogs(groups);
     for (const MetricRow& row : metricRows()) {
         ComparedMetric metric{row.group, headingOf(row), {}};
         for (const RunGroup& group : groups) {
             metric.values.push_back(valueOf(row, group));
         }
-        markBest(row, metric.values);
+        if (comparable) {
+            markBest(row, metric.values);
+        }
         if (std::any_of(metric.values.begin(), metric.values.end(),
                         [](const GroupValue& v) { return v.count > 0; })) {
             compared.push_back(std::move(metric));

@@ -13,14 +13,6 @@
 namespace slamot::report {
 namespace {
 
-std::set<std::string> logsOf(const RunGroup& group) {
-    std::set<std::string> logs;
-    for (const RunFolder& run : group.runs) {
-        logs.insert(run.text("log"));
-    }
-    return logs;
-}
-
 PageSection tableSection(const std::vector<RunGroup>& groups) {
     PageTable table{"Metrics", {{"", false}}, {}};
     for (const RunGroup& group : groups) {
@@ -32,6 +24,13 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         status.cells.push_back({statusOf(group)});
     }
     table.rows.push_back(std::move(status));
+    for (const ComparedSetting& setting : compareSettings(groups)) {
+        TableRow row{{{fmt::format("[{}] {}", setting.section, setting.key)}}};
+        for (const std::string& value : setting.values) {
+            row.cells.push_back({value.empty() ? "–" : value});
+        }
+        table.rows.push_back(std::move(row));
+    }
     std::string heading;
     for (const ComparedMetric& metric : compareMetrics(groups)) {
         if (metric.group != heading) {
@@ -57,28 +56,29 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         "The best of each row is marked. With several runs: their mean and its 95 % interval "
         "(Student's t). Where "
         "intervals overlap the difference may be chance. Runs that did not come to the end of "
-        "their log, or of which one lacks the value, are never the best.",
+        "their log, or of which one lacks the value, are never the best. Times of single runs are not "
+        "compared. Settings are those that differ.",
         {table}};
-    const bool same = std::all_of(groups.begin(), groups.end(),
-                                  [&](const RunGroup& g) { return logsOf(g) == logsOf(groups.front()); });
-    if (!same) {
-        section.blocks.push_back(Paragraph{"Careful: these runs are not of the same logs."});
+    for (const std::string& note : comparisonNotes(groups)) {
+        section.blocks.push_back(Paragraph{note});
     }
     return section;
 }
 
-/// Every run of every group as a line; the first of a group names it.
+/// Every run of every group as a line; the first of a group names it. Those drawn first are wider, so that
+/// what later ones cover is seen.
 template <class PointsOf>
 std::vector<Layer> linesOf(const std::vector<RunGroup>& groups, PointsOf points_of) {
     std::vector<Layer> lines;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const SeriesStyle style = seriesStyle(g);
+        const double width = 1.3 + std::min(1.2 * static_cast<double>(groups.size() - 1 - g), 3.6);
         bool first = true;
         for (const RunFolder& run : groups[g].runs) {
             Points2 points = points_of(run);
             if (!points.empty()) {
                 lines.push_back(Line{first ? groups[g].name : "", std::move(points), style.colour,
-                                     first ? 1.5 : 0.8, style.dash, first ? 1.0 : 0.5});
+                                     first ? width : 0.8, style.dash, first ? 1.0 : 0.5});
                 first = false;
             }
         }
@@ -177,15 +177,18 @@ Panel waysPanel(const std::vector<RunGroup>& groups) {
     panel.equal_aspect = true;
     panel.height = 480;
     panel.legend = LegendPlace::right;
+    std::set<std::string> logs;
     for (const RunGroup& group : groups) {
-        if (const RunFolder& run = group.runs.front(); !run.pairs.empty()) {
-            Line truth{"true way", {}, colour::grey, 5, Dash::solid, 0.35};
+        for (const RunFolder& run : group.runs) {
+            if (run.pairs.empty() || !logs.insert(run.log_file).second) {
+                continue;
+            }
+            Line truth{logs.size() == 1 ? "true way" : "", {}, colour::grey, 7, Dash::solid, 0.35};
             for (const eval::PosePair& pair : run.pairs) {
                 truth.points.push_back(
                     trueOrigin(pair.truth.position(), run.truth->point, pair.estimate.mean.theta));
             }
             panel.layers.push_back(std::move(truth));
-            break;
         }
     }
     return panel;
@@ -214,16 +217,16 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
     page.sections.push_back(tableSection(groups));
     addCourse(page, groups, "ways", "Ways of the robot", "In the world's frame, unaligned.",
               waysPanel(groups), way);
-    addCourse(page, groups, "position-error", "Position error",
+    addCourse(page, groups, "position_error", "Position error",
               "The robot's distance from its true position, unaligned.",
               coursePanel("Position error", "m", false), positionError);
     Panel nees = coursePanel("NEES per degree of freedom", "", true);
     nees.layers.push_back(Rule{"covariances that tell the truth", 1});
     addCourse(page, groups, "nees", "NEES of the robot", "Above 1 the estimate is surer than it may be.",
               nees, robotNees);
-    addCourse(page, groups, "landmark-count", "Number of landmarks", "", coursePanel("Landmarks", "", false),
+    addCourse(page, groups, "landmark_count", "Number of landmarks", "", coursePanel("Landmarks", "", false),
               landmarkCount);
-    addCourse(page, groups, "step-time", "Step time", "Median within a hundredth of the run.",
+    addCourse(page, groups, "step_time", "Step time", "Median within a hundredth of the run.",
               coursePanel("Time of a step", "ms", true), stepTime);
     PageTable table{
         "Runs", {{"folder", false}, {"status", false}, {"estimator", false}, {"log", false}, {"seed"}}, {}};

@@ -23,6 +23,12 @@ void forEachConfigLine(
     }
 }
 
+std::string configValue(const std::string& line) {
+    const std::size_t equals = line.find('=');
+    const std::size_t begin = equals == std::string::npos ? equals : line.find_first_not_of(' ', equals + 1);
+    return begin == std::string::npos ? std::string() : line.substr(begin);
+}
+
 bool configHolds(const std::string& config, const std::string& section, const std::string& key) {
     bool holds = false;
     forEachConfigLine(config, [&](const std::string& s, const std::string& k, const std::string&) {

@@ -10,6 +10,9 @@ void forEachConfigLine(
     const std::string& config,
     const std::function<void(const std::string&, const std::string&, const std::string&)>& line_of);
 
+/// What a line sets its key to.
+std::string configValue(const std::string& line);
+
 /// Whether the configuration sets a key.
 bool configHolds(const std::string& config, const std::string& section, const std::string& key);
 

@@ -18,6 +18,7 @@ struct MetricRow {
     std::string path;               ///< in summary.json, as RunFolder::number has it
     double factor = 1;              ///< from the file's unit to `unit`
     std::string divisor_path = {};  ///< of what it is divided by; empty for 1
+    std::size_t least_runs = 1;     ///< that decide which is the best; times depend on what else runs
 };
 
 /// In the order of tables; the rows of one group stand together.

@@ -112,19 +112,18 @@ MapContent contentOf(const eval::RunRecord& run, const Truth* truth) {
 }
 
 MapView viewOf(const MapContent& content) {
-    Points2 ways = content.robot, objects = content.landmarks;
-    const auto append = [](Points2& to, const Points2& from) {
-        to.insert(to.end(), from.begin(), from.end());
-    };
-    append(ways, content.true_robot);
+    Points2 ways = content.robot;
+    const auto append = [&ways](const Points2& way) { ways.insert(ways.end(), way.begin(), way.end()); };
+    append(content.true_robot);
     for (const auto& [id, points] : content.true_targets) {
-        append(ways, points);
+        append(points);
     }
     for (const TrackWay& track : content.tracks) {
-        append(ways, track.points);
+        append(track.points);
     }
-    if (objects.empty()) {
-        objects = content.true_landmarks;
+    std::vector<MapObject> objects;
+    for (const GaussianPoint& landmark : content.landmark_gaussians) {
+        objects.push_back(mapObject(landmark.mean, landmark.covariance));
     }
     return mapView(ways, objects);
 }

@@ -35,11 +35,34 @@ Eigen::Vector2d medianOf(Points2 points) {
     return median;
 }
 
+Points2 positionsOf(const std::vector<MapObject>& objects) {
+    Points2 positions;
+    for (const MapObject& object : objects) {
+        positions.push_back(object.position);
+    }
+    return positions;
+}
+
+Box withEllipses(const Box& box, const std::vector<MapObject>& objects) {
+    Box wider = box;
+    for (const MapObject& object : objects) {
+        if (object.reach.allFinite() && box.contains(object.position)) {
+            wider.extend(object.position - object.reach).extend(object.position + object.reach);
+        }
+    }
+    const Eigen::Vector2d most = Eigen::Vector2d::Constant(0.1 * box.sizes().maxCoeff());
+    return {wider.min().cwiseMax(box.min() - most), wider.max().cwiseMin(box.max() + most)};
+}
+
 }  // namespace
 
-MapView mapView(const Points2& ways, const Points2& objects) {
+MapObject mapObject(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) {
+    return {mean, 3 * covariance.diagonal().cwiseMax(0).cwiseSqrt()};
+}
+
+MapView mapView(const Points2& ways, const std::vector<MapObject>& objects) {
     const Points2 paths = finiteOnes(ways);
-    Points2 things = finiteOnes(objects);
+    Points2 things = finiteOnes(positionsOf(objects));
     const Box core = boxOf(paths, paths.size());
     MapView view;
     if (paths.empty() && things.empty()) {
@@ -61,6 +84,7 @@ MapView mapView(const Points2& ways, const Points2& objects) {
             box = (with.sizes().array() <= 2 * most.sizes().array()).all() ? with : box;
         }
     }
+    box = withEllipses(box, objects);
     // A standing robot without a map still gets a metre around it.
     const double least = std::max(1.0, 0.05 * box.sizes().maxCoeff()) / 2;
     view.low = box.min().cwiseMin((box.center().array() - least).matrix());

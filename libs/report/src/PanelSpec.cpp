@@ -103,9 +103,9 @@ json axisSpec(const Axis& axis, const AxisView& view, bool upright, bool map = f
         label = jsonText(json(axis.categories)) + "[datum.value]";
     } else if (view.logarithmic) {
         result["values"] = logarithmicTicks(view, view.pixels / (upright ? 25 : 50));
-        label =
-            "datum.value < 0.001 || datum.value > 99999 ? format(datum.value, '~e') : format(datum.value, "
-            "'~g')";
+        // One form for all labels of an axis.
+        const bool plain = view.low >= 0.0009 && view.high < 100001;
+        label = plain ? "format(datum.value, '~r')" : "format(datum.value, '~e')";
     } else {
         result["tickCount"] = count;
         result.erase("encode");

@@ -101,19 +101,40 @@ void takeGivenTruth(RunFolder& run, const std::string& folder) {
     run.summary["metrics"] = eval::toJson(eval::evaluate(run.run, *run.truth, run.evaluation));
 }
 
+/// What the run called `path`, wherever one is now: from the directory it was started in, else, as both may
+/// have been moved together, from a folder above its own. `path` itself where nothing is found.
+std::string placeOf(const RunFolder& run, const std::string& path) {
+    if (path.empty() || fs::path(path).is_absolute()) {
+        return path;
+    }
+    std::vector<fs::path> starts = {run.text("directory")};
+    for (fs::path above = fs::absolute(run.folder).lexically_normal(); above.has_relative_path();) {
+        above = above.parent_path();
+        starts.push_back(above);
+    }
+    for (const fs::path& start : starts) {
+        if (std::error_code error; fs::exists(start / path, error)) {
+            return fs::absolute(start / path).lexically_normal().string();
+        }
+    }
+    return path;
+}
+
 /// Truth where the run had it. The page is worth having without.
 void findTruth(RunFolder& run) {
-    const std::string folder = run.text("truth");
-    if (folder.empty()) {
+    const std::string named = run.text("truth"), folder = placeOf(run, named);
+    if (named.empty()) {
         run.why_no_truth = "the run had none";
     } else if (!fs::is_directory(folder)) {
-        run.why_no_truth = fmt::format("{}, which the run had, is not there; --truth names it", folder);
+        run.why_no_truth = fmt::format("{}, which the run had, is not there; --truth names it", named);
+        run.lost_truth = true;
     } else {
         try {
             run.truth = readTruth(folder);
-            run.truth_folder = folder;
+            run.truth_folder = named;
         } catch (const LogError& error) {
             run.why_no_truth = fmt::format("what the run had cannot be used any more ({})", error.what());
+            run.lost_truth = true;
         }
     }
 }
@@ -160,6 +181,7 @@ RunFolder readRunFolder(const std::string& folder, const std::string& truth_fold
     RunFolder run;
     run.folder = folder;
     run.summary = readSummary(folder);
+    run.log_file = placeOf(run, run.text("log"));
     run.evaluation = evaluationOf(run.summary, folder);
     run.run = eval::readRun(folder);
     run.map_known = there("landmarks.csv");

@@ -20,12 +20,13 @@ Page runPage(const RunFolder& run) {
     Page page;
     page.title = fmt::format("{} on {}", run.text("estimator"),
                              std::filesystem::path(run.text("log")).filename().string());
-    const auto counted = [&](const char* name) {
-        return run.number(std::string("counts/") + name).value_or(0);
+    const auto counted = [&](const char* name, const char* thing) {
+        const double count = run.number(std::string("counts/") + name).value_or(0);
+        return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
     };
-    page.subtitle = fmt::format("{:.1f} s, {} detections, {} landmarks and {} tracks at the end; {}",
-                                run.duration(), counted("detections"), counted("landmarks"),
-                                counted("tracks_at_end"), run.text("status"));
+    page.subtitle = fmt::format("{:.1f} s, {}, {} and {} at the end; {}", run.duration(),
+                                counted("detections", "detection"), counted("landmarks", "landmark"),
+                                counted("tracks_at_end", "track"), run.text("status"));
     PageSection missing{"not-shown", "Not shown", "", {}};
     for (const ReportSection* section : runSections()) {
         const std::string why = section->why_absent(run);

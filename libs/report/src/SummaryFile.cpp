@@ -32,7 +32,7 @@ class ShapeCheck {
             throw LogError(
                 fmt::format("{}: is not what slamot writes, expected the summary of a run", file_));
         }
-        for (const char* name : {"status", "log", "truth", "estimator", "detector", "version", "config",
+        for (const char* name : {"status", "directory", "log", "truth", "estimator", "detector", "version", "config",
                                  "estimate_sha256", "end_message"}) {
             text(summary, name, name);
         }
@@ -80,7 +80,12 @@ class ShapeCheck {
 json readSummary(const std::string& folder) {
     const std::string file = folder + summary_name;
     if (!std::filesystem::exists(file)) {
-        throw LogError(fmt::format("{}: has no summary.json, expected the output folder of a run", folder));
+        const bool begun = std::filesystem::exists(folder + "/trajectory.csv");
+        throw LogError(begun ? fmt::format("{}: has no summary.json: the run in it is still going on or was "
+                                           "killed, expected one that came to an end; run it again",
+                                           folder)
+                             : fmt::format("{}: has no summary.json, expected the output folder of a run",
+                                           folder));
     }
     std::ifstream in(file, std::ios::binary);
     const json summary = json::parse(in, nullptr, false);

@@ -36,6 +36,21 @@ inline std::string lastCodePoints(const std::string& text, std::size_t most, con
     return mark + text.substr(at);
 }
 
+/// The text, or as much of its beginning as fits and `mark`.
+inline std::string firstCodePoints(const std::string& text, std::size_t most, const std::string& mark) {
+    if (codePoints(text) <= most) {
+        return text;
+    }
+    std::size_t at = 0;
+    for (std::size_t count = 0; at < text.size(); ++at) {
+        count += continuesCodePoint(text[at]) ? 0 : 1;
+        if (count > most - mark.size()) {
+            break;
+        }
+    }
+    return text.substr(0, at) + mark;
+}
+
 /// About how many pixels wide a UTF-8 text is: node has no font metrics. The classes are DejaVu Sans' widths.
 inline double textWidth(const std::string& text, double size) {
     constexpr std::string_view narrow = "iljtfrI.,:;'|!()[] -", wide = "mwMW@%";

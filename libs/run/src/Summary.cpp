@@ -2,6 +2,8 @@
 
 #include <sys/resource.h>
 
+#include <filesystem>
+
 #include "slamot/core/Version.h"
 
 namespace slamot::run {
@@ -16,6 +18,12 @@ double peakMemoryMegabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Where relative paths start.
+std::string workingDirectory() {
+    std::error_code gone;
+    return std::filesystem::current_path(gone).string();
 }
 
 nlohmann::json countsJson(const PipelineCounts& counts, const Estimate& estimate) {
@@ -70,6 +78,7 @@ nlohmann::json makeSummary(const SummaryInput& in) {
         {"program", "slamot"},
         {"version", version},
         {"status", toText(in.status)},
+        {"directory", workingDirectory()},
         {"log", in.log_file},
         {"truth", in.truth_folder.empty() ? nlohmann::json() : nlohmann::json(in.truth_folder)},
         {"estimator", in.estimator},

@@ -10,6 +10,7 @@
 #include "CsvLine.h"
 #include "NumberText.h"
 #include "Selected.h"
+#include "slamot/eval/TerminalText.h"
 
 namespace slamot::study {
 namespace {
@@ -196,6 +197,31 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
     return report;
 }
 
+namespace {
+
+std::string stateText(CheckState state) {
+    return state == CheckState::passed ? "passed" : state == CheckState::failed ? "FAILED" : "not checked";
+}
+
+/// What a check left out or lacked, and what it is about.
+std::string remarkText(const CheckResult& r) {
+    return r.reason + (r.about.empty() || r.reason.empty() ? "" : "; ") + r.about;
+}
+
+}  // namespace
+
+std::string toTerminal(const CheckReport& report) {
+    std::string text;
+    for (const CheckResult& r : report.results) {
+        text += fmt::format("{:<11}  {}\n", stateText(r.state), r.name);
+        text += eval::wrapped(fmt::format("{}: {}, expected {} to {}", r.what, numberText(r.value, 5),
+                                          csvNumber(r.interval.low), csvNumber(r.interval.high)),
+                              4, 6);
+        if (const std::string remark = remarkText(r); !remark.empty()) text += eval::wrapped(remark, 4, 6);
+    }
+    return text;
+}
+
 Table checkTable(const CheckReport& report) {
     Table table;
     table.columns = {{"check", {"check"}, false},
@@ -206,10 +232,7 @@ Table checkTable(const CheckReport& report) {
                      {"result", {"result"}, false},
                      {"about", {"about", "reason"}, false}};
     for (const CheckResult& r : report.results) {
-        const std::string state = r.state == CheckState::passed   ? "passed"
-                                  : r.state == CheckState::failed ? "FAILED"
-                                                                  : "not checked";
-        const std::string separator = r.about.empty() || r.reason.empty() ? "" : "; ";
+        const std::string state = stateText(r.state);
         const auto number = [](double value) { return Field{numberText(value, 5), {csvNumber(value)}}; };
         const auto bound = [](double value) { return Field{csvNumber(value), {csvNumber(value)}}; };
         table.lines.push_back({{{r.name, {r.name}},
@@ -218,7 +241,7 @@ Table checkTable(const CheckReport& report) {
                                 bound(r.interval.low),
                                 bound(r.interval.high),
                                 {state, {state}},
-                                {r.reason + separator + r.about, {r.about, r.reason}}}});
+                                {remarkText(r), {r.about, r.reason}}}});
     }
     return table;
 }

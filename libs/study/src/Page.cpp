@@ -148,14 +148,14 @@ Provenance provenanceHere(const std::string& command) {
             std::thread::hardware_concurrency(), command};
 }
 
-std::string stampLine(const Provenance& p, const Findings& findings) {
+std::string originText(const Provenance& p, const Findings& findings) {
     const auto& rows = findings.rows;
     std::set<std::string> hosts;
     for (const Row& row : rows)
         if (!row.cost.host.empty()) hosts.insert(row.cost.host);
     const Plan* plan = findings.plan;
     std::string line =
-        fmt::format("Filled on {}, {}, {} {}, slamot {}, from {}{} runs", p.date, p.processor, p.cores,
+        fmt::format("{}, {}, {} {}, slamot {}, from {}{} runs", p.date, p.processor, p.cores,
                     p.cores == 1 ? "core" : "cores", version, rows.size(),
                     plan && plan->runCount() > rows.size() ? fmt::format(" of {}", plan->runCount()) : "");
     std::vector<std::string> remarks;
@@ -164,9 +164,13 @@ std::string stampLine(const Provenance& p, const Findings& findings) {
         remarks.push_back(fmt::format("no runs of: {}", fmt::join(sourcesWithoutWorld(*plan), ", ")));
     if (!remarks.empty()) line += fmt::format(" ({})", fmt::join(remarks, "; "));
     if (hosts.size() > 1) line += fmt::format(" on {} machines", hosts.size());
+    return line;
+}
+
+std::string stampLine(const Provenance& p, const Findings& findings) {
     // Backticks within code need a longer fence.
     const char* fence = p.command.find('`') == std::string::npos ? "`" : "``";
-    return line + fmt::format(": {0}{1}{0}", fence, p.command);
+    return fmt::format("Filled on {0}: {1}{2}{1}", originText(p, findings), fence, p.command);
 }
 
 std::string filledText(const std::string& page, const std::string& keyword, const std::string& name,

@@ -25,7 +25,12 @@ report::PageTable pageTable(const Table& table, const std::string& name) {
 }
 
 report::PageSection tableSection(const Findings& findings) {
-    report::PageSection section{"tables", "Tables", "", {}};
+    report::PageSection section{
+        "tables",
+        "Tables",
+        "Means with the half width of their 95 % interval behind ±, and the median in parentheses where a table "
+        "shows both; an interval in brackets is of the value before it. Captions say more.",
+        {}};
     for (const TableSpec& spec : findings.analysis.tables)
         section.blocks.push_back(pageTable(makeTable(spec, findings), spec.name));
     return section;
@@ -47,11 +52,10 @@ report::PageSection runSection(const Findings& findings, const Provenance& prove
         std::replace(settings.begin(), settings.end(), '\n', ' ');
         configs.rows.push_back({{{findings.analysis.label(variant.name)}, {settings}}});
     }
-    const std::string stamp = stampLine(provenance, findings);  // ends with the command
     return {"runs",
             "What was run",
             "",
-            {report::Paragraph{stamp.substr(0, stamp.rfind(": `")) + "."}, configs,
+            {report::Paragraph{"Made on " + originText(provenance, findings) + "."}, configs,
              report::Paragraph{"The command that makes this page again:"},
              report::Verbatim{provenance.command, "", true}}};
 }

@@ -92,14 +92,31 @@ std::string html(const Verbatim& verbatim, std::size_t number) {
                                                   escaped(verbatim.summary), text);
 }
 
-std::string keyEntry(const std::string& drawing, const std::string& words) {
-    return "<li><svg aria-hidden=\"true\" viewBox=\"0 0 16 8\">" + drawing + "</svg>" + escaped(words) +
-           "</li>";
-}
-
-/// A colour that the theme changes (assets/replay.js).
-std::string keyColour(const char* attribute, const std::string& light) {
-    return fmt::format("{0}=\"{1}\" data-colour=\"{1}\"", attribute, escaped(light));
+/// `data-colour`: a colour that the theme changes (assets/replay.js).
+std::string keyDrawing(const ReplayKey& key) {
+    using Symbol = ReplayKey::Symbol;
+    const char* shape = "";
+    switch (key.symbol) {
+        case Symbol::arrow:
+            shape = R"(<path d="M3 1 L14 4 L3 7 Z" fill="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::square:
+            shape = R"(<rect x="6" y="2" width="4" height="4" fill="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::cross:
+            shape = R"(<path d="M5 1 L11 7 M5 7 L11 1" stroke="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::wide_line:
+            shape = R"(<path d="M0 4 H16" stroke-width="4" opacity="0.35" stroke="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::line:
+            shape = R"(<path d="M0 4 H16" stroke="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::disc:
+            shape = R"(<circle cx="8" cy="4" r="4" fill="{0}" data-colour="{0}"/>)";
+            break;
+    }
+    return fmt::format(fmt::runtime(shape), escaped(key.colour));
 }
 
 std::string html(const ReplayView& replay) {
@@ -124,18 +141,9 @@ std::string html(const ReplayView& replay) {
     }
     out += "</fieldset>\n";
     out += "<ul class=\"key\" aria-label=\"What is drawn\">";
-    out += keyEntry("<path d=\"M3 1 L14 4 L3 7 Z\" " + keyColour("fill", colour::blue) + "/>",
-                    "robot and its way");
-    out += keyEntry("<rect x=\"6\" y=\"2\" width=\"4\" height=\"4\" fill=\"currentColor\"/>", "landmark");
-    out += keyEntry("<path d=\"M5 1 L11 7 M5 7 L11 1\" stroke=\"currentColor\"/>", "true landmark");
-    out += keyEntry("<path d=\"M0 4 H16\" stroke-width=\"4\" stroke=\"currentColor\" opacity=\"0.35\"/>",
-                    "true way");
-    out += keyEntry("<path d=\"M0 4 H16\" " + keyColour("stroke", colour::sky) + "/>", "seen at this step");
-    if (replay.modes.size() > 1) {
-        for (const auto& [name, mode_colour] : replay.modes) {
-            out += keyEntry("<circle cx=\"8\" cy=\"4\" r=\"4\" " + keyColour("fill", mode_colour) + "/>",
-                            "track in mode " + name);
-        }
+    for (const ReplayKey& key : replay.keys) {
+        out += fmt::format("<li><svg aria-hidden=\"true\" viewBox=\"0 0 16 8\">{}</svg>{}</li>",
+                           keyDrawing(key), escaped(key.words));
     }
     out += "</ul>\n";
     if (!replay.note.empty()) {

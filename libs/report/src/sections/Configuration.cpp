@@ -39,7 +39,12 @@ std::vector<Block> configuration(const RunFolder& run) {
         !seed.empty() && !configHolds(run.text("config"), "run", "seed")) {
         command += " --seed " + seed;
     }
-    return {Paragraph{"Save the settings below as run.ini, then"}, Verbatim{command, "", true},
+    const std::string directory = run.text("directory");
+    const std::string start = directory.empty() ? "Save the settings below as run.ini, then"
+                                                : fmt::format("Save the settings below as run.ini in {}, where "
+                                                              "the run was started, then there",
+                                                              directory);
+    return {Paragraph{start}, Verbatim{command, "", true},
             Verbatim{run.text("config"),
                      "Settings that were given; `slamot config` prints all with their defaults", true},
             Paragraph{"The estimates are the same where estimate_sha256 in summary.json is"},

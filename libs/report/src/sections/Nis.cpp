@@ -17,6 +17,20 @@ namespace {
 
 constexpr int degrees = 2;  // range and bearing
 constexpr std::size_t most_windows = 80, most_groups = 4;
+constexpr double lowest_shown = 0.01;  // 0.5 % of innovations should lie below
+
+/// What was seen, in the plural.
+const char* wordOf(ObjectKind kind) {
+    switch (kind) {
+        case ObjectKind::landmark:
+            return "landmarks";
+        case ObjectKind::mover:
+            return "movers";
+        case ObjectKind::unknown:
+            break;
+    }
+    return "landmark or mover";
+}
 
 using Group = std::pair<std::string, ObjectKind>;
 using Rows = std::vector<const eval::InnovationRow*>;
@@ -50,14 +64,15 @@ void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, cons
     panel.layers.push_back(std::move(mean));
 }
 
-/// Of very many innovations the middle 90 % as an area, beside where they should lie, and only the outermost
-/// as points.
+/// Of very many innovations the middle as an area, and only the outermost as points.
 void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows,
-             Points used) {
-    Band middle{"5 % to 95 % of the innovations", {}, colour::sky, 0.35};
+             double probability, Points used) {
+    Band middle{fmt::format("the middle {:.3g} % of the innovations", 100 * probability), {}, colour::sky,
+                0.35};
     std::vector<double> low(windows.count()), high(windows.count());
+    const double tail = (1 - probability) / 2;
     for (std::size_t w = 0; w < windows.count(); ++w) {
-        middle.rows.push_back({windows.middle(w), quantile(values[w], 0.05), quantile(values[w], 0.95)});
+        middle.rows.push_back({windows.middle(w), quantile(values[w], tail), quantile(values[w], 1 - tail)});
         low[w] = quantile(values[w], 0.005);
         high[w] = quantile(values[w], 0.995);
     }
@@ -67,9 +82,7 @@ void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const
     };
     used.label = "the outermost 1 %";
     used.points.erase(std::remove_if(used.points.begin(), used.points.end(), inside), used.points.end());
-    const eval::Band expected = eval::chiSquareBand(0.9, degrees);
-    panel.layers = {middle, used, Rule{"5 % and 95 % of χ²", expected.low, false, colour::blue},
-                    Rule{"", expected.high, false, colour::blue}};
+    panel.layers = {middle, used};
 }
 
 Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
@@ -90,19 +103,22 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     }
     Panel panel;
     panel.title =
-        fmt::format("{}: {}, {:.1f} % of {} within {:.2g} to {:.2g}",
-                    group.first.empty() ? "(no label)" : group.first, toText(group.second),
-                    100 * inside / static_cast<double>(rows.size()), rows.size(), single.low, single.high);
+        fmt::format("sensor '{}', {}: {:.1f} % of {} within {:.2g} to {:.2g}, expected {:.3g} %", group.first,
+                    wordOf(group.second), 100 * inside / static_cast<double>(rows.size()), rows.size(),
+                    single.low, single.high, 100 * probability);
     panel.x = runTimeAxis(run);
     panel.y.label = "NIS";
     panel.y.logarithmic = true;
-    panel.y.min = 0.01;
+    panel.y.min = lowest_shown;
     panel.height = 200;
     if (used.points.size() > many) {
-        addMany(panel, values, windows, std::move(used));
+        addMany(panel, values, windows, probability, std::move(used));
     } else {
         panel.layers = {used};
     }
+    panel.layers.push_back(Rule{fmt::format("where the middle {:.3g} % should lie", 100 * probability),
+                                single.low, false, colour::blue});
+    panel.layers.push_back(Rule{"", single.high, false, colour::blue});
     if (!rejected.points.empty()) {
         panel.layers.push_back(rejected);
     }
@@ -146,7 +162,7 @@ const ReportSection nis_section{
     "Do the innovations fit their covariances? The one test of consistency that needs no truth. Each "
     "innovation should be of chi-square law "
     "with two degrees of freedom (mean 2); the black line is the mean over a window of time, the "
-    "green band where it should lie.",
+    "green band where it should lie. The axis begins at 0.01; 0.5 % of innovations should lie below.",
     absent, blocks};
 
 }  // namespace slamot::report

@@ -42,9 +42,7 @@ ReplayView replayOf(const RunFolder& run) {
     }
     data["modes"] = json::array();
     for (std::size_t m = 0; m < run.run.mode_names.size(); ++m) {
-        const std::string mode_colour = seriesStyle(m).colour;
-        data["modes"].push_back({{"name", run.run.mode_names[m]}, {"colour", mode_colour}});
-        replay.modes.emplace_back(run.run.mode_names[m], mode_colour);
+        data["modes"].push_back({{"name", run.run.mode_names[m]}, {"colour", seriesStyle(m).colour}});
     }
     data["landmarkCount"] = landmarkCounts(scene);
     data["layers"] = json::array();
@@ -55,6 +53,9 @@ ReplayView replayOf(const RunFolder& run) {
         }
         if (*layer.label != '\0') {
             replay.choices.push_back({layer.id, layer.label, layer.on});
+        }
+        for (const ReplayKey& key : layer.keys ? layer.keys(scene) : std::vector<ReplayKey>()) {
+            replay.keys.push_back(key);
         }
         if (layer.data) {
             data["layers"].push_back({{"id", layer.id}, {"data", std::move(layer_data)}});

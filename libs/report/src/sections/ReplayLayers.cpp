@@ -6,6 +6,7 @@
 #include "TrueOrigin.h"
 #include "sections/ReplayColumns.h"
 #include "slamot/core/data/Angle.h"
+#include "slamot/report/Palette.h"
 
 namespace slamot::report {
 namespace {
@@ -92,14 +93,48 @@ json robot(const ReplayScene& scene) {
     return columns.take();
 }
 
+using Keys = std::vector<ReplayKey>;
+using Symbol = ReplayKey::Symbol;
+
+Keys truthKeys(const ReplayScene& scene) {
+    Keys keys;
+    if (!scene.run.truth->landmarks.empty()) {
+        keys.push_back({Symbol::cross, "true landmark", colour::grey});
+    }
+    keys.push_back({Symbol::wide_line, "true way", colour::text});
+    return keys;
+}
+
+Keys sightKeys(const ReplayScene&) {
+    return {{Symbol::line, "seen at this step", colour::sky}};
+}
+
+Keys landmarkKeys(const ReplayScene& scene) {
+    const bool any = !scene.run.run.landmarks.empty() || !scene.run.sights.empty();
+    return any ? Keys{{Symbol::square, "landmark", colour::black}} : Keys();
+}
+
+Keys trackKeys(const ReplayScene& scene) {
+    const std::vector<std::string>& modes = scene.run.run.mode_names;
+    Keys keys;
+    for (std::size_t m = 0; m < modes.size() && modes.size() > 1; ++m) {
+        keys.push_back({Symbol::disc, "track in mode " + modes[m], seriesStyle(m).colour});
+    }
+    return keys;
+}
+
+Keys robotKeys(const ReplayScene&) {
+    return {{Symbol::arrow, "robot and its way", colour::blue}};
+}
+
 }  // namespace
 
 const std::vector<ReplayLayer>& replayLayers() {
-    static const std::vector<ReplayLayer> layers = {{"truth", "truth", true, truth},
-                                                    {"sight", "field of view and what is seen", true, sight},
-                                                    {"landmarks", "", true, landmarks},
-                                                    {"tracks", "", true, tracks},
-                                                    {"robot", "", true, robot},
+    static const std::vector<ReplayLayer> layers = {{"truth", "truth", true, truth, truthKeys},
+                                                    {"sight", "field of view and what is seen", true, sight, sightKeys},
+                                                    {"landmarks", "", true, landmarks, landmarkKeys},
+                                                    {"tracks", "", true, tracks, trackKeys},
+                                                    {"robot", "", true, robot, robotKeys},
                                                     {"ellipses", "3σ ellipses", true, nullptr},
                                                     {"follow", "follow the robot", false, nullptr}};
     return layers;

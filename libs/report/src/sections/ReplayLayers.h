@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "sections/ReplayScene.h"
+#include "slamot/report/Page.h"
 
 namespace slamot::report {
 
@@ -13,6 +14,8 @@ struct ReplayLayer {
     /// What it is drawn from; null where the run has none, and the layer is not there then. No function: a
     /// box that other layers and the replay ask for.
     nlohmann::json (*data)(const ReplayScene&);
+    /// The things it draws, for the list below the replay; no function for none.
+    std::vector<ReplayKey> (*keys)(const ReplayScene&) = nullptr;
 };
 
 /// In the order of drawing.

@@ -58,17 +58,18 @@ ReplayScene::ReplayScene(const RunFolder& of_run) : run(of_run), frames_(framesO
 
 /// The map with room at its rim.
 void ReplayScene::findView() {
-    Points2 ways, objects;
+    Points2 ways;
+    std::vector<MapObject> objects;
     for (const eval::RobotRow& row : run.run.trajectory) {
         ways.push_back(row.robot.mean.position());
     }
     for (const auto& [stamp, tracks] : run.run.tracks) {
         for (const TrackEstimate& track : tracks) {
-            objects.push_back(track.mean.head<2>());
+            objects.push_back({track.mean.head<2>()});
         }
     }
     for (const LandmarkEstimate& landmark : run.run.landmarks) {
-        objects.push_back(landmark.mean);
+        objects.push_back(mapObject(landmark.mean, landmark.covariance));
     }
     view_ = mapView(ways, objects);
     const Vector2 rim = 0.04 * (view_.high - view_.low).maxCoeff() * Vector2::Ones();

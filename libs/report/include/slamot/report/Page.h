@@ -55,13 +55,20 @@ struct ReplayChoice {
     bool on = true;
 };
 
+/// What one of the things in the replay looks like, for the list below it.
+struct ReplayKey {
+    enum class Symbol { arrow, square, cross, wide_line, line, disc };
+    Symbol symbol;
+    std::string words;
+    std::string colour;  ///< of the light theme
+};
+
 /// The replay of a run (assets/replay.js), its data as JSON.
 struct ReplayView {
     std::string alt, data;
     std::string note;  ///< stands below
     std::vector<ReplayChoice> choices;
-    /// Name and colour of the modes of tracks.
-    std::vector<std::pair<std::string, std::string>> modes;
+    std::vector<ReplayKey> keys;
 };
 
 using Block = std::variant<Paragraph, Verbatim, PageTable, PageFigure, ReplayView>;

@@ -39,6 +39,7 @@ struct CorrelationCells {
 struct RunFolder {
     std::string folder;
     nlohmann::json summary;
+    std::string log_file;  ///< where the log is; what the run called it where it is gone
     eval::EvaluationOptions evaluation;  ///< how the run was evaluated, or would be
     eval::RunRecord run;
     bool map_known = false;  ///< landmarks.csv is there, so that what is not in it has left the map
@@ -48,6 +49,7 @@ struct RunFolder {
     std::optional<Truth> truth;
     std::string truth_folder;  ///< where it was read
     std::string why_no_truth;  ///< a clause, where there is none
+    bool lost_truth = false;   ///< the run had one, which is gone or broken
 
     /// The robot's poses with their truth; none without truth.
     std::vector<eval::PosePair> pairs;

@@ -32,4 +32,7 @@ CheckReport runChecks(const Analysis& analysis, const Plan& plan, const std::vec
 
 Table checkTable(const CheckReport& report);
 
+/// The same for the terminal: at most 80 columns.
+std::string toTerminal(const CheckReport& report);
+
 }  // namespace slamot::study

@@ -19,9 +19,12 @@ struct Provenance {
 };
 Provenance provenanceHere(const std::string& command);
 
-/// "Filled on 2026-01-31, AMD EPYC, 2 cores, slamot 0.1.0, from 1190 of 1200 runs (3 failed, 1 truncated; no
-/// runs of: mrclam_6): `slamot study ...`". Rows do not say when and on which processor they were measured.
-/// Without Findings::plan neither the number of planned runs nor the skipped sources are known.
+/// "2026-01-31, AMD EPYC, 2 cores, slamot 0.1.0, from 1190 of 1200 runs (3 failed, 1 truncated; no runs of:
+/// mrclam_6)". Rows do not say when and on which processor they were measured. Without Findings::plan neither
+/// the number of planned runs nor the skipped sources are known.
+std::string originText(const Provenance& provenance, const Findings& findings);
+
+/// "Filled on " originText ": `slamot study ...`".
 std::string stampLine(const Provenance& provenance, const Findings& findings);
 
 /// Replaces what stands between a mark of this study and the next `<!-- end -->`:
