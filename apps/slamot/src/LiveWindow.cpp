@@ -5,7 +5,6 @@
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/gui/keycodes.h>
 #include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/system/CObserver.h>
 
 #include <algorithm>
@@ -28,9 +27,6 @@ using mrpt::img::TColor;
 namespace colour = run::shape_colour;
 using run::makeEllipse;
 using run::placeEllipse;
-
-/// Dark as on the page of a run: the background is light, unlike that of SceneViewer3D.
-const TColor landmark_colour(34, 34, 34);
 
 /// Times real time; the last is as fast as can be.
 constexpr std::array<double, 8> speeds{1, 2, 5, 10, 20, 50, 100, 0};
@@ -57,19 +53,6 @@ mrpt::opengl::CSetOfLines::Ptr makeLines(const TColor& line_colour, float width)
     lines->setColor_u8(line_colour);
     lines->setLineWidth(width);
     return lines;
-}
-
-/// The robot's mark, a metre long, as on the page of a run.
-mrpt::opengl::CSetOfTriangles::Ptr makeArrow(const TColor& arrow_colour) {
-    const mrpt::math::TPoint3Df tip{0.5f, 0, 0}, left{-0.35f, 0.35f, 0}, notch{-0.2f, 0, 0}, right{-0.35f, -0.35f, 0};
-    auto arrow = mrpt::opengl::CSetOfTriangles::Create();
-    arrow->enableLight(false);
-    for (const auto& [a, b, c] : {std::array{tip, left, notch}, std::array{tip, notch, right}}) {
-        mrpt::opengl::TTriangle triangle(a, b, c);
-        triangle.setColor(arrow_colour);
-        arrow->insertTriangle(triangle);
-    }
-    return arrow;
 }
 
 void extend(mrpt::opengl::CSetOfLines& way, const Vector2& p) {
@@ -124,7 +107,7 @@ struct LiveWindow::Impl {
     CloseRequest close_request;
     std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed
     mrpt::opengl::CSetOfObjects::Ptr world = mrpt::opengl::CSetOfObjects::Create();
-    mrpt::opengl::CSetOfTriangles::Ptr robot = makeArrow(colour::robot);
+    mrpt::opengl::CSetOfTriangles::Ptr robot = run::makeRobotArrow();
     mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(colour::robot);
     mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(colour::robot, 2.5f),
                                    sight = makeLines(colour::sight, 1.0f);
@@ -146,7 +129,7 @@ struct LiveWindow::Impl {
         world->insert(robot);
         auto& scene = window->get3DSceneAndLock();
         scene->insert(world);
-        scene->getViewport()->setCustomBackgroundColor({0.96f, 0.96f, 0.96f});
+        scene->getViewport()->setCustomBackgroundColor(colour::background);
         window->unlockAccess3DScene();
         close_request.observeBegin(*window);
         window->setCameraProjective(false);
@@ -269,7 +252,7 @@ struct LiveWindow::Impl {
         for (const auto& [id, landmark] : changed) {
             auto& ellipse = landmarks[id];
             if (!ellipse) {
-                ellipse = makeEllipse(landmark_colour);
+                ellipse = makeEllipse(colour::landmark);
                 world->insert(ellipse);
             }
             placeEllipse(*ellipse, landmark.mean, landmark.covariance);

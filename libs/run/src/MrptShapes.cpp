@@ -2,6 +2,19 @@
 
 namespace slamot::run {
 
+mrpt::opengl::CSetOfTriangles::Ptr makeRobotArrow() {
+    const mrpt::math::TPoint3Df tip{0.5f, 0, 0}, left{-0.35f, 0.35f, 0}, notch{-0.2f, 0, 0},
+        right{-0.35f, -0.35f, 0};
+    auto arrow = mrpt::opengl::CSetOfTriangles::Create();
+    arrow->enableLight(false);
+    for (const auto& [a, b, c] : {std::array{tip, left, notch}, std::array{tip, notch, right}}) {
+        mrpt::opengl::TTriangle triangle(a, b, c);
+        triangle.setColor(shape_colour::robot);
+        arrow->insertTriangle(triangle);
+    }
+    return arrow;
+}
+
 mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const mrpt::img::TColor& colour) {
     auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
     ellipse->setQuantiles(3.0f);

@@ -1,7 +1,6 @@
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/stock_objects.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +60,7 @@ void SceneSink::end(const RunEnd& end) {
     auto ground = mrpt::opengl::CGridPlaneXY::Create(-side, side, -side, side, 0.0f, static_cast<float>(0.5 * cell));
     ground->setColor(0.8f, 0.8f, 0.8f);
     scene.insert(ground);
+    scene.getViewport()->setCustomBackgroundColor(shape_colour::background);
 
     scene.insert(Impl::path(impl_->robot, shape_colour::robot));
     std::size_t k = 0;
@@ -69,7 +69,8 @@ void SceneSink::end(const RunEnd& end) {
 
     const auto& [pose, covariance] = end.estimate.robot;
     scene.insert(ellipse(pose.position(), covariance.topLeftCorner<2, 2>(), shape_colour::robot));
-    auto robot = mrpt::opengl::stock_objects::RobotPioneer();
+    auto robot = makeRobotArrow();
+    robot->setScale(static_cast<float>(std::max(0.5, extent / 50)));  // to be seen
     robot->setPose(mrpt::poses::CPose3D(pose.x, pose.y, 0, pose.theta, 0, 0));
     scene.insert(robot);
 

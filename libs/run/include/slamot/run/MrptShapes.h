@@ -2,6 +2,7 @@
 // What scene.3Dscene and the live window draw alike.
 #include <mrpt/img/TColor.h>
 #include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <array>
 
@@ -11,10 +12,14 @@ namespace slamot::run {
 
 /// Colours that colour-blind people can tell apart (Okabe and Ito), as in figures.
 namespace shape_colour {
-inline const mrpt::img::TColor robot(0, 114, 178), landmark(0, 158, 115), sight(86, 180, 233);
+inline const mrpt::img::TColor robot(0, 114, 178), landmark(34, 34, 34), sight(86, 180, 233);
 inline const std::array tracks{mrpt::img::TColor(213, 94, 0), mrpt::img::TColor(204, 121, 167),
                                mrpt::img::TColor(230, 159, 0)};
+inline const mrpt::img::TColorf background(0.96f, 0.96f, 0.96f);
 }  // namespace shape_colour
+
+/// The robot's mark, a metre long, its heading along x.
+mrpt::opengl::CSetOfTriangles::Ptr makeRobotArrow();
 
 /// At three standard deviations; still without a place.
 mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const mrpt::img::TColor& colour);
