@@ -17,7 +17,7 @@ class Page:
     def __init__(self, file, width=1400, height=1000, dark=False, timeout=60):
         self.file, self.timeout = pathlib.Path(file).resolve(), timeout
         self.size, self.dark = (width, height), dark
-        self.messages, self.complaints, self.next_id, self.buffer = [], [], 0, b""
+        self.complaints, self.next_id, self.buffer = [], 0, b""
 
     def __enter__(self):
         self.profile = tempfile.mkdtemp(prefix="slamot_chromium_")
@@ -126,6 +126,11 @@ class Page:
         for kind in ("keyDown", "keyUp"):
             self.send("Input.dispatchKeyEvent", type=kind, key=name, code=code or name, modifiers=8 if shift else 0,
                       windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9}.get(name, 0))
+
+    def accessible_nodes(self):
+        """What a screen reader is told: (role, name) of each node of the browser's accessibility tree."""
+        nodes = self.send("Accessibility.getFullAXTree")["nodes"]
+        return [(n["role"]["value"], n.get("name", {}).get("value", "")) for n in nodes if not n["ignored"]]
 
     def screenshot(self, file, whole=True):
         clip = {}

@@ -15,6 +15,9 @@ SLAMOT = os.environ.get("SLAMOT_PROGRAM", str(SOURCE / "build/release/bin/slamot
 AUDIT = (pathlib.Path(__file__).parent / "audit.js").read_text()
 # WCAG 2.1, success criterion 1.4.3.
 LEAST_CONTRAST = 4.5
+NAMED_ROLES = {"button", "checkbox", "combobox", "heading", "image", "link", "navigation", "region", "slider", "table",
+               "textbox"}
+DATASETS = pathlib.Path(os.environ.get("SLAMOT_DATASETS", "/nowhere"))
 
 
 @unittest.skipUnless(chromium.PROGRAM, "the Debian package chromium is not installed")
@@ -254,11 +257,17 @@ class Pages(unittest.TestCase):
                     self.assertEqual([c for c in found["contrasts"] if c["ratio"] < LEAST_CONTRAST], [])
                     self.assertEqual(found["faults"], [])
 
+                    # What the browser tells a screen reader.
+                    nodes = page.accessible_nodes()
+                    self.assertGreater(len([role for role, _ in nodes if role in NAMED_ROLES]), 10)
+                    self.assertEqual([role for role, name in nodes if role in NAMED_ROLES and not name.strip()], [])
+
     def test_the_audit_can_fail(self):
         with self.open() as page:
             page.evaluate("document.querySelector('main').insertAdjacentHTML('beforeend', "
                           "'<p style=\"color:#aaa\">pale</p><input type=\"text\"><h5>deep</h5><svg></svg>')")
             found = page.evaluate(AUDIT)
+            self.assertIn(("textbox", ""), page.accessible_nodes())
             self.assertTrue([c for c in found["contrasts"] if c["text"] == "pale" and c["ratio"] < LEAST_CONTRAST])
             self.assertEqual(len(found["faults"]), 3, found["faults"])
 
@@ -268,6 +277,57 @@ class Pages(unittest.TestCase):
                 with self.subTest(page=name, width=width), self.open(name, width=width) as page:
                     page.wait_for_figures()
                     self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+
+
+@unittest.skipUnless(chromium.PROGRAM, "the Debian package chromium is not installed")
+class PagesOfRealLogs(unittest.TestCase):
+    """MRCLAM 6 and Victoria Park, where SLAMOT_DATASETS has them."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="slamot_real_pages_"))
+
+    def tearDown(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def slamot(self, *arguments):
+        done = subprocess.run([SLAMOT, "-q", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def expect_a_page_that_works(self, dataset, importer, out, log, config):
+        data = DATASETS / dataset
+        if not data.is_dir():
+            self.skipTest(f"{dataset} is absent: set SLAMOT_DATASETS")
+        self.slamot("import", importer, data, "-o", out)
+        self.slamot("run", SOURCE / "config/runs" / config, log, "-o", "out")
+        self.assertLess((self.folder / "out/report.html").stat().st_size, 5e6)
+        with chromium.Page(self.folder / "out/report.html") as page:
+            page.wait_for_figures()
+            count = page.evaluate("document.querySelectorAll('figure[data-figure]').length")
+            self.assertGreater(count, 5)
+            self.assertEqual(page.evaluate("document.querySelectorAll('figure svg, figure canvas').length"), count)
+            picture = "document.querySelector('.replay canvas').toDataURL()"
+            truth = "document.querySelector('.replay input[value=truth]')"
+            at_end = page.evaluate(picture)
+            page.evaluate(f"{truth}.click()")
+            self.assertTrue(page.evaluate(picture) != at_end, "truth is not hidden")
+            page.evaluate(f"{truth}.click()")
+            self.assertTrue(page.evaluate(picture) == at_end, "truth is not shown again")
+            page.evaluate("document.querySelector('.replay .stage').focus()")
+            page.key("Home")
+            self.assertTrue(page.evaluate(picture) != at_end, "the slider changes nothing")
+            box = "document.querySelector('#figure-map .choices input')"
+            map_picture = "document.querySelector('#figure-map svg').outerHTML"
+            before = page.evaluate(map_picture)
+            page.evaluate(f"{box}.click()")
+            self.assertTrue(page.evaluate(map_picture) != before, "the map's layer is not hidden")
+            self.assertEqual(page.complaints, [])
+
+    def test_mrclam(self):
+        self.expect_a_page_that_works("mrclam_6", "mrclam", "logs", "logs/robot_1.rawlog", "mrclam_imm.ini")
+
+    def test_victoria_park(self):
+        self.expect_a_page_that_works("victoria_park", "victoria-park", "park.rawlog", "park.rawlog", "victoria_park.ini")
 
 
 if __name__ == "__main__":
