@@ -13,8 +13,9 @@ namespace slamot::bench {
 
 /// What happened in a step of the compressed engine; several things may.
 struct StepEvents {
-    bool commit = false, activation = false, regrouping = false;
-    bool any() const { return commit || activation || regrouping; }
+    bool commit = false, activation = false;
+    bool unforeseen = false;  ///< an activation of what was seen before it had been prepared
+    bool any() const { return commit || activation; }
 };
 
 struct CompressedStep {
@@ -39,9 +40,15 @@ struct CompressedRun {
     std::vector<CompressedStep> steps;
     MemoryUse memory;
     double end_error = 0;  ///< [m], of the robot's position
+    double background = 0;  ///< [ms] of processor time a step, mean, on other threads
+};
+/// How steps come, and whether the engine has a thread for what is put away.
+struct Pace {
+    double rate = 0;  ///< [Hz], by the clock on the wall; 0: each as soon as the one before is done
+    bool background = false;
 };
 /// ekf_slamot, invariant, over a run that sees all of the map twice.
-CompressedRun runCompressed(WorldLayout layout, int landmarks, double step);
+CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, const Pace& pace = {});
 
 /// Steps in the midst of a map that is all there.
 struct FilledRun {

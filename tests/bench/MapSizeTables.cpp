@@ -19,7 +19,7 @@ const StepKind step_kinds[] = {
     {"with a commit", [](const StepEvents& e) { return e.commit; }},
     {"with an activation", [](const StepEvents& e) { return e.activation; }},
     {"with an activation but no commit", [](const StepEvents& e) { return e.activation && !e.commit; }},
-    {"with a regrouping", [](const StepEvents& e) { return e.regrouping; }},
+    {"with an unforeseen activation", [](const StepEvents& e) { return e.unforeseen; }},
 };
 
 const char* passName(bool second) {

@@ -48,7 +48,7 @@ void ActiveSetPolicy::look(const Attention& attention) {
         Sensor& sensor = of(seen);
         if (range <= sensor.range) continue;
         sensor.range = range;
-        sensor.known = false;
+        sensor.at_refresh = sensor.at_plan = std::nullopt;
         range_ = std::max(range_, range);
     }
 }
@@ -57,27 +57,35 @@ ActiveSetPolicy::Sensor& ActiveSetPolicy::of(const RangeBearingSensor& seen) {
     const auto same = [&seen](const Sensor& s) { return s.label == seen.label; };
     auto sensor = std::find_if(sensors_.begin(), sensors_.end(), same);
     if (sensor == sensors_.end())
-        sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}});
+        sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}, {}});
     return *sensor;
 }
 
+bool ActiveSetPolicy::halfUsed(const Sensor& s, const std::optional<Pose2>& since) const {
+    if (s.range == 0) return false;
+    if (!since) return true;
+    const double moved = (s.now.position() - since->position()).norm();
+    const double turned = std::abs(angleDifference(s.now.theta, since->theta));
+    return moved >= 0.5 * parameters_.activate_margin * s.range ||
+           (s.field_of_view < 2 * pi && turned >= 0.5 * parameters_.view_margin);
+}
+
 bool ActiveSetPolicy::due() const {
-    return std::any_of(sensors_.begin(), sensors_.end(), [this](const Sensor& s) {
-        if (s.range == 0) return false;
-        if (!s.known) return true;
-        // What is in view now was within reach then, as long as neither margin is used up.
-        const double moved = (s.now.position() - s.at_refresh.position()).norm();
-        const double turned = std::abs(angleDifference(s.now.theta, s.at_refresh.theta));
-        return moved >= parameters_.activate_margin * s.range ||
-               (s.field_of_view < 2 * pi && turned >= parameters_.view_margin);
-    });
+    return std::any_of(sensors_.begin(), sensors_.end(),
+                       [this](const Sensor& s) { return halfUsed(s, s.at_refresh); });
 }
 
 void ActiveSetPolicy::refreshed() {
-    for (Sensor& sensor : sensors_) {
-        sensor.at_refresh = sensor.now;
-        sensor.known = true;
-    }
+    for (Sensor& sensor : sensors_) sensor.at_refresh = sensor.now;
+}
+
+bool ActiveSetPolicy::planHolds() const {
+    return std::none_of(sensors_.begin(), sensors_.end(),
+                        [this](const Sensor& s) { return halfUsed(s, s.at_plan); });
+}
+
+void ActiveSetPolicy::planned() {
+    for (Sensor& sensor : sensors_) sensor.at_plan = sensor.now;
 }
 
 bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view_margins) const {

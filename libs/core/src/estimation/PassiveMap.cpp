@@ -75,7 +75,7 @@ Eigen::MatrixXd PassiveMap::rowsProper(const Eigen::MatrixXd& rows) const {
     return turning_ ? firstOfPairs(rows) : rows;
 }
 
-PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
+PassiveMap::Taken PassiveMap::prepare(const std::vector<BlockId>& landmarks) {
     // Landmarks of far tiles: all around them comes near, since more will be asked for.
     std::vector<Vector2> places;
     for (const BlockId id : landmarks)
@@ -86,33 +86,38 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
         regroup(far);
     }
 
-    const int columns = 2 * static_cast<int>(landmarks.size());
+    const auto count = static_cast<Eigen::Index>(landmarks.size()), columns = 2 * count;
     Taken taken;
+    taken.landmarks = landmarks;
     taken.mean.resize(columns);
     taken.base.resize(q_, columns);
     taken.covariance.resize(columns, columns);
-    std::vector<Address> addresses;
-    for (int i = 0; i < columns / 2; ++i) {
+    for (Eigen::Index i = 0; i < count; ++i) {
         const BlockId id = landmarks[static_cast<std::size_t>(i)];
-        addresses.push_back(find(id));
         taken.mean.segment<2>(2 * i) = mean(id);
         taken.base.middleCols<2>(2 * i) = base(id);
-        for (int j = 0; j < columns / 2; ++j)
+        for (Eigen::Index j = 0; j < count; ++j)
             taken.covariance.block<2, 2>(2 * i, 2 * j) =
                 covariance(id, landmarks[static_cast<std::size_t>(j)]);
     }
     const Eigen::MatrixXd proper = rowsProper(taken.base);
     const SquareRoot root = squareRoot(taken.covariance - transposedProduct(proper, proper));
-    addRows(addresses, proper, root.whitener);
     taken.root = root.root;
-    taken.new_rows = columns * (turning_ ? 2 : 1);
-    q_ += taken.new_rows;
-
-    std::vector<std::vector<int>> gone(tiles_.size());
-    for (const Address& address : addresses)
-        gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
-    for (int t = 0; t < tileCount(); ++t) drop(t, gone[static_cast<std::size_t>(t)]);
+    taken.new_rows = static_cast<int>(columns) * (turning_ ? 2 : 1);
+    findRows(root.whitener, taken);
     return taken;
+}
+
+void PassiveMap::take(const Taken& taken) {
+    if (taken.base.rows() != q_) throw std::logic_error("landmarks were prepared for another base");
+    addRows(taken);
+    q_ += taken.new_rows;
+    std::vector<std::vector<int>> gone(tiles_.size());
+    for (const BlockId id : taken.landmarks) {
+        const Address& address = find(id);
+        gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
+    }
+    for (int t = 0; t < tileCount(); ++t) drop(t, gone[static_cast<std::size_t>(t)]);
 }
 
 void PassiveMap::remove(BlockId landmark) {

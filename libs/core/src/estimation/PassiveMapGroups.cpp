@@ -12,7 +12,6 @@ namespace {
 /// that could bring a landmark of one within reach.
 constexpr double far_distance = 5.0;
 constexpr double regroup_after = 2.0;
-constexpr double latest = 1.25;  // of that, whatever else there is to do
 /// Directions that carry less than this part of a standard deviation, in the root mean square over all
 /// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
 /// much.
@@ -42,10 +41,10 @@ std::vector<char> PassiveMap::farFrom(const std::vector<Vector2>& places) const 
     return far;
 }
 
-void PassiveMap::follow(const Vector2& robot, double reach, bool busy) {
+void PassiveMap::follow(const Vector2& robot, double reach) {
     reach_ = reach;
     if (size() == 0) return;
-    if (grouped_at_ && (robot - *grouped_at_).norm() < regroup_after * reach * (busy ? latest : 1)) return;
+    if (grouped_at_ && (robot - *grouped_at_).norm() < regroup_after * reach) return;
     grouped_at_ = robot;
     const std::vector<char> far = farFrom({robot});
     bool any = false;

@@ -36,9 +36,14 @@ class ActiveSetPolicy {
     /// The longest range of a sensor that counts [m]; 0 before the first landmark.
     double range() const { return range_; }
 
-    /// Whether sensors have moved so far that landmarks may have come within reach since `refreshed`.
+    /// Whether sensors have used up half their margins since `refreshed`: what was to be activated then has to
+    /// be there now, so that the other half is left for what is chosen from here on.
     bool due() const;
     void refreshed();
+    /// What to activate next has been chosen, with the sensors where they are now.
+    void planned();
+    /// Whether it will do until the active set is due again.
+    bool planHolds() const;
 
     bool toActivate(const Vector2& landmark) const {
         return within(landmark, parameters_.activate_margin, 1);
@@ -53,10 +58,12 @@ class ActiveSetPolicy {
         std::string label;
         double range;  ///< [m] at which it sees landmarks; 0 as long as it has seen none
         double field_of_view;
-        Pose2 now, at_refresh;  ///< in the world
-        bool known = false;     ///< whether at_refresh holds, and for this range
+        Pose2 now;  ///< in the world
+        /// Where it was then; nothing when the range was another.
+        std::optional<Pose2> at_refresh, at_plan;
     };
     Sensor& of(const RangeBearingSensor& seen);
+    bool halfUsed(const Sensor& sensor, const std::optional<Pose2>& since) const;
     bool within(const Vector2& landmark, double margin, double view_margins) const;
 
     ActiveSetParameters parameters_;

@@ -52,16 +52,27 @@ class PassiveMap {
 
     /// Landmarks on their way to the active state, two coordinates each.
     struct Taken {
+        std::vector<BlockId> landmarks;
         Eigen::VectorXd mean;        ///< b0
         Eigen::MatrixXd base;        ///< B_c, of the base before
         Eigen::MatrixXd covariance;  ///< P_cc0
         Eigen::MatrixXd root;  ///< (P_cc0 - U_c^t U_c)^1/2: their formal covariance with the new rows proper
-        int new_rows = 0;      ///< by which the base has grown, at its end
+        int new_rows = 0;      ///< by which the base grows, at its end
+
+        struct FarRows {
+            std::vector<Eigen::MatrixXd> directions;  ///< by tile: new rows of the group's V
+            Eigen::MatrixXd W;                        ///< the new rows, of all directions
+        };
+        std::vector<Eigen::MatrixXd> near_rows;  ///< by tile: the new rows of B
+        FarRows far_rows;
     };
-    /// Landmarks that differ from one another. What the rows proper, U, of the base do not say of their
-    /// covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at the end of the
-    /// base, whitened; where rows come in pairs, each is followed by its turned one.
-    Taken take(const std::vector<BlockId>& landmarks);
+    /// Landmarks that differ from one another, and what the base does not know of them: what its rows proper,
+    /// U, do not say of their covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at
+    /// the end of the base, whitened; where rows come in pairs, each is followed by its turned one. Changes no
+    /// value, and holds until one of the calls below, `step` excepted, comes in between.
+    Taken prepare(const std::vector<BlockId>& landmarks);
+    /// They leave, and the base grows.
+    void take(const Taken& taken);
 
     /// Forgets a landmark.
     void remove(BlockId landmark);
@@ -83,9 +94,8 @@ class PassiveMap {
     void commit(const Commit& commit);
 
     /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
-    /// the robot has moved far enough; in a step that is `busy` with a commit or an activation only when it
-    /// cannot wait.
-    void follow(const Vector2& robot, double reach, bool busy);
+    /// the robot has moved far enough.
+    void follow(const Vector2& robot, double reach);
 
     /// One step's part of the work on covariances that wait.
     void step() { covariance_.step(); }
@@ -129,11 +139,11 @@ class PassiveMap {
     static std::vector<int> coordinatesOf(const std::vector<int>& landmarks);
     /// Shorter rows of B, over all landmarks, say nothing.
     double negligibleLength() const;
-    /// New rows of the base for the landmarks taken, P_c,t0 - known^t U_t whitened.
-    void addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
-                 const Eigen::MatrixXd& whitener);
-    void addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
-                    const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener);
+    /// New rows of the base for landmarks that are to be taken, P_c,t0 - known^t U_t whitened.
+    void findRows(const Eigen::MatrixXd& whitener, Taken& taken) const;
+    Taken::FarRows findFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
+                               const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener) const;
+    void addRows(const Taken& taken);
     void drop(int t, const std::vector<int>& gone);
     int tileFor(const Vector2& position);
     /// What a commit adds to P_bb0.
