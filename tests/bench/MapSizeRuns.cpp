@@ -113,6 +113,7 @@ CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, cons
     LaneWorld world(layout, landmarks, step);
     CompressedRun run;
     run.layout = layout;
+    run.pace = pace;
     run.steps.reserve(world.path().size());
     const ResidentGrowth resident;
     JointFilterParameters parameters = parametersFor(JointEngine::Kind::compressed);
@@ -121,12 +122,15 @@ CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, cons
     filter.start(world.stamp(0), {world.path().front(), start_covariance});
     EventCounter counter;
     Metronome metronome(pace.rate);
-    const double others_before = processTime() - timeNow().processor;
+    const auto on_other_threads = [] { return processTime() - timeNow().processor; };
+    const double at_start = on_other_threads();
+    double half_way = at_start;
     for (std::size_t k = 1; k < world.path().size(); ++k) {
         const OdometryIncrement odometry = world.odometry(k);
         const DetectionSet seen = world.look(k);
         metronome.wait();
         const StepTime time = timeStep(filter, odometry, seen);
+        if (!world.secondPass(k)) half_way = on_other_threads();
         const CompressedJointBank& bank = compressedBank(filter);
         run.steps.push_back({time, counter.next(bank), world.secondPass(k)});
         run.seen += static_cast<double>(countSeen(seen));
@@ -135,7 +139,8 @@ CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, cons
             run.memory.state = std::max(run.memory.state, bank.memory());
     }
     const auto steps = static_cast<double>(run.steps.size());
-    run.background = (processTime() - timeNow().processor - others_before) / steps;
+    run.background_first = (half_way - at_start) / (0.5 * steps);
+    run.background_second = (on_other_threads() - half_way) / (0.5 * steps);
     run.seen /= steps;
     run.landmarks = static_cast<int>(filter.landmarkCount());
     run.memory.resident = resident.peak();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "LoopScene.h"
@@ -19,10 +21,11 @@
 namespace slamot {
 namespace {
 
-JointFilter filterWith(JointEngine::Kind kind, Consistency consistency) {
+JointFilter filterWith(JointEngine::Kind kind, Consistency consistency, bool background = false) {
     JointFilterParameters parameters;
     parameters.consistency = consistency;
     parameters.engine.kind = kind;
+    parameters.engine.background = background;
     parameters.engine.active_set.keep_at_least = 10;
     parameters.target_max_unseen = 2;
     JointFilter filter(parameters, {});
@@ -40,15 +43,17 @@ Eigen::VectorXd positions(const JointFilter& filter) {
     return out;
 }
 
-class JointEngines : public testing::TestWithParam<Consistency> {};
+/// With or without a thread for what is put away.
+class JointEngines : public testing::TestWithParam<std::tuple<Consistency, bool>> {};
 
 TEST_P(JointEngines, AgreeOverAWholeRun) {
     // The engines add the same numbers in another order, some 1e4 times; the map leaves
     // out what is below 3e-12 of a standard deviation. 1e-9 of the largest number of a kind is what is
     // promised.
     test::LoopScene loop(5, 260);
-    JointFilter dense = filterWith(JointEngine::Kind::dense, GetParam()),
-                compressed = filterWith(JointEngine::Kind::compressed, GetParam());
+    const auto& [consistency, background] = GetParam();
+    JointFilter dense = filterWith(JointEngine::Kind::dense, consistency),
+                compressed = filterWith(JointEngine::Kind::compressed, consistency, background);
     const auto& bank = dynamic_cast<const CompressedJointBank&>(compressed.state());
     std::set<BlockId> been_away, came_back;
     double worst = 0;
@@ -93,10 +98,13 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     EXPECT_LT(bank.activeDimension(), dense.state().dimension() / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, JointEngines, testing::Values(Consistency::classic, Consistency::invariant),
-                         [](const auto& each) {
-                             return each.param == Consistency::classic ? "classic" : "invariant";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, JointEngines,
+    testing::Combine(testing::Values(Consistency::classic, Consistency::invariant), testing::Bool()),
+    [](const auto& each) {
+        return std::string(std::get<0>(each.param) == Consistency::classic ? "classic" : "invariant") +
+               (std::get<1>(each.param) ? "InTheBackground" : "");
+    });
 
 }  // namespace
 }  // namespace slamot
