@@ -18,12 +18,6 @@ using test::randomCovariance;
 using test::randomMatrix;
 using test::randomVector;
 
-#if defined(__SANITIZE_THREAD__)
-constexpr int part = 4;  // of the steps: each takes some ten times as long
-#else
-constexpr int part = 1;
-#endif
-
 struct Form {
     Consistency consistency;
     const char* modes;
@@ -54,7 +48,7 @@ const CompressedJointBank& bankOf(const JointFilter& filter) {
 TEST_P(BackgroundMap, AWholeRunIsTheSameToTheBit) {
     test::LoopScene scene(5, 200);
     JointFilter ours = filter(true), theirs = filter(false);
-    for (int step = 0; step < 480 / part; ++step) {
+    for (int step = 0; step < 480; ++step) {
         const OdometryIncrement odometry = scene.drive(step);
         const DetectionSet set = scene.look(step);
         for (JointFilter* each : {&ours, &theirs}) {
@@ -68,8 +62,8 @@ TEST_P(BackgroundMap, AWholeRunIsTheSameToTheBit) {
             ASSERT_EQ(ours.jointCovariance().matrix, theirs.jointCovariance().matrix) << step;
         }
     }
-    EXPECT_GT(bankOf(ours).commits(), 60 / part) << "or there was nothing to do";
-    EXPECT_GT(bankOf(ours).activations(), 20 / part);
+    EXPECT_GT(bankOf(ours).commits(), 60) << "or there was nothing to do";
+    EXPECT_GT(bankOf(ours).activations(), 20);
     EXPECT_EQ(bankOf(ours).commits(), bankOf(theirs).commits());
     EXPECT_EQ(bankOf(ours).activations(), bankOf(theirs).activations());
     EXPECT_EQ(bankOf(ours).unforeseen(), bankOf(theirs).unforeseen());
@@ -184,7 +178,7 @@ class Wanderer {
 
 TEST_P(BackgroundMap, WhateverHappensIsTheSameToTheBit) {
     Wanderer ours(GetParam(), true), theirs(GetParam(), false);
-    for (int step = 0; step < 600 / part; ++step) {
+    for (int step = 0; step < 600; ++step) {
         ours.step();
         theirs.step();
         for (int i = 0; i < ours.bank().modeCount(); ++i) {
@@ -195,16 +189,16 @@ TEST_P(BackgroundMap, WhateverHappensIsTheSameToTheBit) {
         }
     }
     const CompressedJointBank& bank = ours.bank();
-    EXPECT_GT(bank.commits(), 30 / part);
-    EXPECT_GT(bank.unforeseen(), 10 / part) << "measured while away";
-    EXPECT_GT(bank.activations(), bank.unforeseen() + 10 / part) << "prepared ahead";
-    EXPECT_GT(bank.map().regroupings(), 2 / part);
-    EXPECT_GT(ours.removed_away, 5 / part);
+    EXPECT_GT(bank.commits(), 30);
+    EXPECT_GT(bank.unforeseen(), 10) << "measured while away";
+    EXPECT_GT(bank.activations(), bank.unforeseen() + 10) << "prepared ahead";
+    EXPECT_GT(bank.map().regroupings(), 2);
+    EXPECT_GT(ours.removed_away, 5);
 }
 
 TEST_P(BackgroundMap, ACopyMadeWhileJobsWaitHasALifeOfItsOwn) {
     Wanderer ours(GetParam(), true), theirs(GetParam(), false);
-    for (int step = 0; step < 200 / part; ++step) {
+    for (int step = 0; step < 200; ++step) {
         ours.step();
         theirs.step();
         if (step % 10 != 9) continue;
@@ -218,7 +212,7 @@ TEST_P(BackgroundMap, ACopyMadeWhileJobsWaitHasALifeOfItsOwn) {
         ASSERT_EQ(copy.all(0), expected.all(0)) << step;
     }
     EXPECT_EQ(ours.all(0), theirs.all(0)) << "the copies have changed nothing";
-    EXPECT_GT(ours.bank().commits(), 8 / part);
+    EXPECT_GT(ours.bank().commits(), 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BackgroundMap,

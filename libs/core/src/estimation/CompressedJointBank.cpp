@@ -270,11 +270,12 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
 
 void CompressedJointBank::plan(const Mode& mode) {
     policy_.planned();
+    worker_.post([this, robot = Vector2(mode.gaussian.mean().head<2>()), reach = policy_.range()] {
+        map_.follow(robot, reach);
+    });
     plan_ = Plan{0, std::make_shared<PassiveMap::Taken>()};
     plan_->job = worker_.post([this, taken = plan_->taken, policy = policy_,
-                               robot = Vector2(mode.gaussian.mean().head<2>()),
                                eta = Eigen::VectorXd(mode.gaussian.mean()(baseCoordinates()))] {
-        map_.follow(robot, policy.range());
         std::vector<BlockId> coming;
         map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
             if (policy.toActivate(position)) coming.push_back(id);
