@@ -9,6 +9,9 @@ namespace {
 /// After a commit of the invariant core active state and base together have three times the active
 /// dimensions.
 constexpr int dividing_factor = 4;
+/// Parts of the margins. When the first is used up, what was chosen before is activated; that is chosen a step
+/// later at the earliest, and has to do until the first is used up once more: both make one.
+constexpr double due_after = 0.45, plan_holds = 0.55;
 
 }  // namespace
 
@@ -61,18 +64,18 @@ ActiveSetPolicy::Sensor& ActiveSetPolicy::of(const RangeBearingSensor& seen) {
     return *sensor;
 }
 
-bool ActiveSetPolicy::halfUsed(const Sensor& s, const std::optional<Pose2>& since) const {
+bool ActiveSetPolicy::used(double part, const Sensor& s, const std::optional<Pose2>& since) const {
     if (s.range == 0) return false;
     if (!since) return true;
     const double moved = (s.now.position() - since->position()).norm();
     const double turned = std::abs(angleDifference(s.now.theta, since->theta));
-    return moved >= 0.5 * parameters_.activate_margin * s.range ||
-           (s.field_of_view < 2 * pi && turned >= 0.5 * parameters_.view_margin);
+    return moved >= part * parameters_.activate_margin * s.range ||
+           (s.field_of_view < 2 * pi && turned >= part * parameters_.view_margin);
 }
 
 bool ActiveSetPolicy::due() const {
     return std::any_of(sensors_.begin(), sensors_.end(),
-                       [this](const Sensor& s) { return halfUsed(s, s.at_refresh); });
+                       [this](const Sensor& s) { return used(due_after, s, s.at_refresh); });
 }
 
 void ActiveSetPolicy::refreshed() {
@@ -81,7 +84,7 @@ void ActiveSetPolicy::refreshed() {
 
 bool ActiveSetPolicy::planHolds() const {
     return std::none_of(sensors_.begin(), sensors_.end(),
-                        [this](const Sensor& s) { return halfUsed(s, s.at_plan); });
+                        [this](const Sensor& s) { return used(plan_holds, s, s.at_plan); });
 }
 
 void ActiveSetPolicy::planned() {

@@ -248,9 +248,17 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
     weights.maxCoeff(&reference);
     const Mode& mode = modes_[static_cast<std::size_t>(reference)];
 
-    if (away_count_ > 0) worker_.post([this] { map_.step(); });
     const bool due = policy_.due();
-    if (away_count_ > 0 && policy_.range() > 0 && (!plan_ || (due && !policy_.planHolds()))) plan(mode);
+    if (away_count_ > 0 && policy_.range() > 0) {
+        const bool planning = !plan_ || (due && !policy_.planHolds());
+        // Grouping anew can wait until what is due, or is to be prepared, has been done.
+        worker_.post([this, robot = Vector2(mode.gaussian.mean().head<2>()), reach = policy_.range(),
+                      busy = due || planning] {
+            map_.step();
+            map_.follow(robot, reach, busy);
+        });
+        if (planning) plan(mode);
+    }
     if (due) {
         // In comes what was chosen ahead, before what has fallen behind goes.
         if (plan_) {
@@ -270,9 +278,6 @@ void CompressedJointBank::attend(const Attention& attention, const ModeWeights& 
 
 void CompressedJointBank::plan(const Mode& mode) {
     policy_.planned();
-    worker_.post([this, robot = Vector2(mode.gaussian.mean().head<2>()), reach = policy_.range()] {
-        map_.follow(robot, reach);
-    });
     plan_ = Plan{0, std::make_shared<PassiveMap::Taken>()};
     plan_->job = worker_.post([this, taken = plan_->taken, policy = policy_,
                                eta = Eigen::VectorXd(mode.gaussian.mean()(baseCoordinates()))] {

@@ -12,6 +12,7 @@ namespace {
 /// that could bring a landmark of one within reach.
 constexpr double far_distance = 5.0;
 constexpr double regroup_after = 2.0;
+constexpr double latest = 1.25;  // of that, whatever else there is to do
 /// Directions that carry less than this part of a standard deviation, in the root mean square over all
 /// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
 /// much.
@@ -41,10 +42,10 @@ std::vector<char> PassiveMap::farFrom(const std::vector<Vector2>& places) const 
     return far;
 }
 
-void PassiveMap::follow(const Vector2& robot, double reach) {
+void PassiveMap::follow(const Vector2& robot, double reach, bool busy) {
     reach_ = reach;
     if (size() == 0) return;
-    if (grouped_at_ && (robot - *grouped_at_).norm() < regroup_after * reach) return;
+    if (grouped_at_ && (robot - *grouped_at_).norm() < regroup_after * reach * (busy ? latest : 1)) return;
     grouped_at_ = robot;
     const std::vector<char> far = farFrom({robot});
     bool any = false;
@@ -76,7 +77,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
     const OrthonormalRows stayed(group_.W, V, negligibleLength());
     int columns = stayed.rank();
     for (const int t : joining) columns += tile(t).width();
-    Eigen::MatrixXd M(q_, columns);
+    Eigen::MatrixXd M(group_.W.rows(), columns);
     M.leftCols(stayed.rank()) = stayed.W();
     columns = stayed.rank();
     for (const int t : joining) {

@@ -5,28 +5,30 @@
 
 namespace slamot {
 
-void PassiveMap::findRows(const Eigen::MatrixXd& whitener, Taken& taken) const {
-    const Eigen::MatrixXd known = rowsProper(taken.base);
+void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
+                         const Eigen::MatrixXd& whitener) {
+    const auto count = 2 * static_cast<Eigen::Index>(taken.size());
     std::vector<PassiveCovariance::Rows::Landmark> landmarks;
-    Eigen::MatrixXd waiting(taken.mean.size(), group_.rank());  // in the group, left of V
-    for (const BlockId id : taken.landmarks) {
-        const auto& [t, i] = find(id);
-        waiting.middleRows<2>(2 * static_cast<Eigen::Index>(landmarks.size())) = group_.left(t, 2 * i, 2);
-        landmarks.push_back({t, 2 * i});
+    Eigen::MatrixXd waiting(count, group_.rank());  // in the group, left of V
+    for (const Address& address : taken) {
+        const auto row = 2 * static_cast<Eigen::Index>(landmarks.size());
+        landmarks.push_back({address.tile, 2 * address.index});
+        waiting.middleRows<2>(row) = group_.left(address.tile, 2 * address.index, 2);
     }
     const PassiveCovariance::Rows rows(covariance_, landmarks);
-    taken.near_rows.resize(tiles_.size());
-    for (int t = 0; t < tileCount(); ++t)
-        if (used(t) && !tile(t).far)
-            taken.near_rows[static_cast<std::size_t>(t)] = withTurned(product(
-                whitener, rows.with(t, tile(t).width()) - transposedProduct(known, rowsProper(tile(t).X))));
-    taken.far_rows = findFarRows(rows, waiting, known, whitener);
+    for (int t = 0; t < tileCount(); ++t) {
+        if (!used(t) || tile(t).far) continue;
+        Tile& own = tile(t);
+        const Eigen::MatrixXd more = withTurned(
+            product(whitener, rows.with(t, own.width()) - transposedProduct(known, rowsProper(own.X))));
+        own.X.conservativeResize(q_ + more.rows(), Eigen::NoChange);
+        own.X.bottomRows(more.rows()) = more;
+    }
+    addFarRows(rows, waiting, known, whitener);
 }
 
-PassiveMap::Taken::FarRows PassiveMap::findFarRows(const PassiveCovariance::Rows& rows,
-                                                   const Eigen::MatrixXd& waiting,
-                                                   const Eigen::MatrixXd& known,
-                                                   const Eigen::MatrixXd& whitener) const {
+void PassiveMap::addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
+                            const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener) {
     // What of the rows lies along V, twice for rounding; what does not gives new directions.
     std::vector<int> far;
     CutRows rest;
@@ -52,34 +54,14 @@ PassiveMap::Taken::FarRows PassiveMap::findFarRows(const PassiveCovariance::Rows
     for (const Eigen::MatrixXd& part : rest) left_over.push_back(&part);
     const OrthonormalRows orthonormal(proper, left_over, negligibleLength());
     const Eigen::MatrixXd K = turningBasis(orthonormal.W(), negligibleLength());
-    CutRows directions = orthonormal.times(K);
-    Taken::FarRows out;
-    out.directions.resize(tiles_.size());
-    for (std::size_t i = 0; i < far.size(); ++i)
-        out.directions[static_cast<std::size_t>(far[i])].swap(directions[i]);
-    Eigen::MatrixXd new_rows(count, group_.rank() + K.rows());
+    const CutRows directions = orthonormal.times(K);
+    group_.extend(static_cast<int>(K.rows()));
+    for (std::size_t i = 0; i < far.size(); ++i) group_.part(far[i]).V.bottomRows(K.rows()) = directions[i];
+    Eigen::MatrixXd new_rows(count, group_.rank());
     new_rows << along, productTransposed(orthonormal.W(), K);
-    out.W = withTurned(new_rows);
-    return out;
-}
-
-void PassiveMap::addRows(const Taken& taken) {
-    group_.extend(static_cast<int>(taken.far_rows.W.cols()) - group_.rank());
-    const auto append = [](Eigen::MatrixXd& M, const Eigen::MatrixXd& rows) {
-        M.conservativeResize(M.rows() + rows.rows(), Eigen::NoChange);
-        M.bottomRows(rows.rows()) = rows;
-    };
-    append(group_.W, taken.far_rows.W);
-    for (int t = 0; t < tileCount(); ++t) {
-        const auto at = static_cast<std::size_t>(t);
-        if (!used(t)) continue;
-        if (!tile(t).far) {
-            append(tile(t).X, taken.near_rows[at]);
-        } else {
-            const Eigen::MatrixXd& directions = taken.far_rows.directions[at];
-            group_.part(t).V.bottomRows(directions.rows()) = directions;
-        }
-    }
+    const Eigen::MatrixXd with_turned = withTurned(new_rows);
+    group_.W.conservativeResize(q_ + with_turned.rows(), Eigen::NoChange);
+    group_.W.bottomRows(with_turned.rows()) = with_turned;
 }
 
 }  // namespace slamot

@@ -14,11 +14,11 @@ struct ActiveSetParameters {
     /// [m] at which landmarks are seen; not given: the sensors' own limits, or the longest range a landmark
     /// was met at where a sensor has none.
     std::optional<double> range;
-    double activate_margin = 0.4;  ///< landmarks up to (1 + this) ranges away are activated
-    double keep_margin = 0.45;     ///< active ones are kept up to (1 + this) ranges away, or activate_margin
+    double activate_margin = 0.3;  ///< landmarks up to (1 + this) ranges away are activated
+    double keep_margin = 0.32;     ///< active ones are kept up to (1 + this) ranges away, or activate_margin
     double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
     double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
-    double retirable_part = 0.1;   ///< commit when this part of the active landmarks is out of reach
+    double retirable_part = 0.03;  ///< commit when this part of the active landmarks is out of reach
     int keep_at_least = 40;        ///< active landmarks, unless the base grows too large
 };
 
@@ -36,7 +36,7 @@ class ActiveSetPolicy {
     /// The longest range of a sensor that counts [m]; 0 before the first landmark.
     double range() const { return range_; }
 
-    /// Whether sensors have used up half their margins since `refreshed`: what was to be activated then has to
+    /// Whether sensors have used up about half their margins since `refreshed`: what was chosen then has to
     /// be there now, so that the other half is left for what is chosen from here on.
     bool due() const;
     void refreshed();
@@ -63,7 +63,8 @@ class ActiveSetPolicy {
         std::optional<Pose2> at_refresh, at_plan;
     };
     Sensor& of(const RangeBearingSensor& seen);
-    bool halfUsed(const Sensor& sensor, const std::optional<Pose2>& since) const;
+    /// Whether the sensor has used up this part of a margin.
+    bool used(double part, const Sensor& sensor, const std::optional<Pose2>& since) const;
     bool within(const Vector2& landmark, double margin, double view_margins) const;
 
     ActiveSetParameters parameters_;

@@ -85,8 +85,7 @@ class CompressedJointBank : public JointBank {
         BlockGaussian gaussian;
     };
 
-    /// What is to be activated next. The result is there when the job is done, and holds until something else
-    /// is done with the map.
+    /// What is to be activated next. The result is there when the job is done, and holds until the map changes.
     struct Plan {
         SerialWorker::Ticket job = 0;
         std::shared_ptr<PassiveMap::Taken> taken;
@@ -97,7 +96,7 @@ class CompressedJointBank : public JointBank {
                away_[static_cast<std::size_t>(block)] != 0;
     }
     void setAway(BlockId landmark, bool away);
-    /// Chooses what to activate next, and groups the map anew where that is due.
+    /// Chooses what to activate next.
     void plan(const Mode& mode);
     /// Prepares landmarks that are away, and waits for it.
     std::shared_ptr<const PassiveMap::Taken> prepare(const std::vector<BlockId>& landmarks);

@@ -44,7 +44,7 @@ class PassiveMap {
     void forNearPositions(const Eigen::Ref<const Eigen::VectorXd>& eta, const Action& action) const {
         for (const Tile& t : tiles_) {
             if (t.landmarks.empty() || t.far) continue;
-            const Eigen::VectorXd position = t.mean + t.X.transpose() * eta;
+            const Eigen::VectorXd position = t.mean + t.X.topRows(q_).transpose() * eta;
             for (std::size_t i = 0; i < t.landmarks.size(); ++i)
                 action(t.landmarks[i], Vector2(position.segment<2>(2 * static_cast<Eigen::Index>(i))));
         }
@@ -58,20 +58,14 @@ class PassiveMap {
         Eigen::MatrixXd covariance;  ///< P_cc0
         Eigen::MatrixXd root;  ///< (P_cc0 - U_c^t U_c)^1/2: their formal covariance with the new rows proper
         int new_rows = 0;      ///< by which the base grows, at its end
-
-        struct FarRows {
-            std::vector<Eigen::MatrixXd> directions;  ///< by tile: new rows of the group's V
-            Eigen::MatrixXd W;                        ///< the new rows, of all directions
-        };
-        std::vector<Eigen::MatrixXd> near_rows;  ///< by tile: the new rows of B
-        FarRows far_rows;
     };
     /// Landmarks that differ from one another, and what the base does not know of them: what its rows proper,
     /// U, do not say of their covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at
-    /// the end of the base, whitened; where rows come in pairs, each is followed by its turned one. Changes no
-    /// value, and holds until one of the calls below, `step` excepted, comes in between.
+    /// the end of the base, whitened; where rows come in pairs, each is followed by its turned one. The base
+    /// grows by these rows in `take`; until then nobody sees them, and every other change but a grouping
+    /// forgets them.
     Taken prepare(const std::vector<BlockId>& landmarks);
-    /// They leave, and the base grows.
+    /// What was prepared last leaves.
     void take(const Taken& taken);
 
     /// Forgets a landmark.
@@ -94,8 +88,9 @@ class PassiveMap {
     void commit(const Commit& commit);
 
     /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
-    /// the robot has moved far enough.
-    void follow(const Vector2& robot, double reach);
+    /// the robot has moved far enough; at a moment that is `busy` only when it
+    /// cannot wait.
+    void follow(const Vector2& robot, double reach, bool busy);
 
     /// One step's part of the work on covariances that wait.
     void step() { covariance_.step(); }
@@ -140,10 +135,11 @@ class PassiveMap {
     /// Shorter rows of B, over all landmarks, say nothing.
     double negligibleLength() const;
     /// New rows of the base for landmarks that are to be taken, P_c,t0 - known^t U_t whitened.
-    void findRows(const Eigen::MatrixXd& whitener, Taken& taken) const;
-    Taken::FarRows findFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
-                               const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener) const;
-    void addRows(const Taken& taken);
+    void addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
+                 const Eigen::MatrixXd& whitener);
+    void addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
+                    const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener);
+    void forgetPrepared();
     void drop(int t, const std::vector<int>& gone);
     int tileFor(const Vector2& position);
     /// What a commit adds to P_bb0.
@@ -155,6 +151,7 @@ class PassiveMap {
 
     bool turning_;
     int q_ = 0;
+    int prepared_rows_ = 0;  ///< rows behind the q_ of the base
     std::vector<Tile> tiles_;
     std::vector<Address> addresses_;  ///< by landmark
     int size_ = 0;
