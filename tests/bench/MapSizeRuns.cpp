@@ -19,7 +19,6 @@ JointFilterParameters parametersFor(JointEngine::Kind engine) {
     JointFilterParameters parameters;
     parameters.consistency = Consistency::invariant;
     parameters.engine.kind = engine;
-    if (getenv("M_A")) { parameters.engine.active_set.activate_margin = atof(getenv("M_A")); parameters.engine.active_set.keep_margin = atof(getenv("M_K")); parameters.engine.active_set.retirable_part = atof(getenv("M_R")); }
     return parameters;
 }
 

@@ -24,7 +24,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
             "How far the sensors see landmarks; auto: their own limits, or the longest range one was met "
             "at. Sensors that see movers only do not count.")
         .real("activate_margin", p.activate_margin, "-", Interval::nonNegative(),
-              "Landmarks are brought in up to (1 + this) ranges away.")
+              "Landmarks are brought in up to (1 + this) ranges away, every half of this in travel.")
         .real("keep_margin", p.keep_margin, "-", Interval::nonNegative(),
               "They are kept up to (1 + this) ranges away; at least activate_margin is taken.")
         .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, 180),
