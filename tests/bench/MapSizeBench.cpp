@@ -86,8 +86,7 @@ std::vector<CompressedRun> measurePaced(const Options& options) {
     std::vector<CompressedRun> out;
     for (const WorldLayout world : {WorldLayout::field, WorldLayout::road})
         if (options.rate > 0)
-            out.push_back(
-                measureCompressed(world, options.sizes.back(), options.step, {options.rate, true}));
+            out.push_back(measureCompressed(world, options.sizes.back(), options.step, {options.rate, true}));
     return out;
 }
 
@@ -207,10 +206,13 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->check(CLI::Range(50, 20000));
     app.add_option("--step", options.step, "Metres between scans")->check(CLI::Range(0.01, 2.0));
-    app.add_option("--rate", options.rate,
-                   "Hz; the largest map of each world once more, on two threads, with steps that come at this rate")
+    app.add_option(
+           "--rate", options.rate,
+           "Hz; the largest map of each world once more, on two threads, with steps that come at this rate")
         ->check(CLI::Range(1.0, 1000.0));
-    app.add_flag("--only-rate", options.only_paced, "Nothing but the runs of --rate")->needs("--rate")->excludes("--fill");
+    app.add_flag("--only-rate", options.only_paced, "Nothing but the runs of --rate")
+        ->needs("--rate")
+        ->excludes("--fill");
     app.add_flag("--quick", options.quick, "Sizes to 1600 only, a few steps of dense and kf-slam");
     app.add_option("--out", options.out, "Folder of map_size.csv, .md and .svg");
     app.add_option("--fill", options.page, "Page whose marks `<!-- bench map_size ... -->` are filled");

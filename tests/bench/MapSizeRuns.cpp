@@ -68,7 +68,8 @@ class Metronome {
     explicit Metronome(double rate) : period_(rate > 0 ? 1 / rate : 0) {}
     void wait() {
         if (period_ == std::chrono::duration<double>(0)) return;
-        const auto after = std::chrono::duration_cast<std::chrono::steady_clock::duration>(++steps_ * period_);
+        const auto after =
+            std::chrono::duration_cast<std::chrono::steady_clock::duration>(++steps_ * period_);
         std::this_thread::sleep_until(begin_ + after);
     }
 

@@ -46,7 +46,7 @@ struct CompressedRun {
     double seen = 0;    ///< landmarks a step, mean
     std::vector<CompressedStep> steps;
     MemoryUse memory;
-    double end_error = 0;  ///< [m], of the robot's position
+    double end_error = 0;                                ///< [m], of the robot's position
     double background_first = 0, background_second = 0;  ///< [ms] a step of each pass, on other threads
 };
 /// ekf_slamot, invariant, over a run that sees all of the map twice.

@@ -98,7 +98,8 @@ class Wanderer {
         ++step_;
         for (int i = 0; i < bank_->modeCount(); ++i) {
             const Vector3 pose(0.2 * std::min(step_ % 300, 300 - step_ % 300), 0, 0.01 * random_.normal());
-            bank_->mode(i).propagate(robot_block, pose, Matrix3::Identity(), randomCovariance(random_, 3, 1e-3));
+            bank_->mode(i).propagate(robot_block, pose, Matrix3::Identity(),
+                                     randomCovariance(random_, 3, 1e-3));
         }
         RangeBearingSet seen;
         seen.sensors.resize(1);
@@ -219,8 +220,9 @@ INSTANTIATE_TEST_SUITE_P(All, BackgroundMap,
                          testing::Values(Form{Consistency::classic, ""}, Form{Consistency::invariant, ""},
                                          Form{Consistency::invariant, "cv:cv:0.5, ca:ca:1.5"}),
                          [](const auto& each) {
-                             return std::string(each.param.consistency == Consistency::classic ? "classic"
-                                                                                               : "invariant") +
+                             return std::string(each.param.consistency == Consistency::classic
+                                                    ? "classic"
+                                                    : "invariant") +
                                     (each.param.modes[0] == '\0' ? "" : "Modes");
                          });
 

@@ -35,9 +35,8 @@ TEST_P(SerialWorkers, AJobThatWasWaitedForIsDone) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SerialWorkers, testing::Bool(), [](const auto& each) {
-    return each.param ? "background" : "inline";
-});
+INSTANTIATE_TEST_SUITE_P(Both, SerialWorkers, testing::Bool(),
+                         [](const auto& each) { return each.param ? "background" : "inline"; });
 
 TEST(SerialWorkerTest, WithoutAThreadAJobIsDoneAtOnceByWhoPostsIt) {
     SerialWorker worker(false);
@@ -57,7 +56,7 @@ TEST(SerialWorkerTest, InTheBackgroundPostingDoesNotWait) {
     });
     std::promise<void> last;
     worker.post([&last] { last.get_future().wait(); });
-    go.set_value();  // not reached if posting waited for the job
+    go.set_value();      // not reached if posting waited for the job
     worker.wait(first);  // nor does this wait for the one behind
     EXPECT_NE(by, std::this_thread::get_id());
     last.set_value();

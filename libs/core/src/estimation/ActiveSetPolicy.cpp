@@ -9,8 +9,8 @@ namespace {
 /// After a commit of the invariant core active state and base together have three times the active
 /// dimensions.
 constexpr int dividing_factor = 4;
-/// Parts of the margins. When the first is used up, what was chosen before is activated; that is chosen a step
-/// later at the earliest, and has to do until the first is used up once more: both make one.
+/// Parts of the margins. When the first is used up, what was chosen before is activated; that is chosen a
+/// step later at the earliest, and has to do until the first is used up once more: both make one.
 constexpr double due_after = 0.45, plan_holds = 0.55;
 
 }  // namespace

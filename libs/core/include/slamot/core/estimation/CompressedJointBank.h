@@ -85,7 +85,8 @@ class CompressedJointBank : public JointBank {
         BlockGaussian gaussian;
     };
 
-    /// What is to be activated next. The result is there when the job is done, and holds until the map changes.
+    /// What is to be activated next. The result is there when the job is done, and holds until the map
+    /// changes.
     struct Plan {
         SerialWorker::Ticket job = 0;
         std::shared_ptr<PassiveMap::Taken> taken;

@@ -60,9 +60,9 @@ class PassiveMap {
         int new_rows = 0;      ///< by which the base grows, at its end
     };
     /// Landmarks that differ from one another, and what the base does not know of them: what its rows proper,
-    /// U, do not say of their covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at
-    /// the end of the base, whitened; where rows come in pairs, each is followed by its turned one. The base
-    /// grows by these rows in `take`; until then nobody sees them, and every other change but a grouping
+    /// U, do not say of their covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows
+    /// at the end of the base, whitened; where rows come in pairs, each is followed by its turned one. The
+    /// base grows by these rows in `take`; until then nobody sees them, and every other change but a grouping
     /// forgets them.
     Taken prepare(const std::vector<BlockId>& landmarks);
     /// What was prepared last leaves.

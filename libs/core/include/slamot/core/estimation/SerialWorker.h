@@ -1,6 +1,7 @@
 #pragma once
-// Jobs that are done one after the other, in the order they were posted: at once, or by a thread of their own.
-// What they leave is the same either way, so long as nobody else touches what they work on without waiting.
+// Jobs that are done one after the other, in the order they were posted: at once, or by a thread of their
+// own. What they leave is the same either way, so long as nobody else touches what they work on without
+// waiting.
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -32,8 +33,8 @@ class SerialWorker {
         job();
         return ++posted_;
     }
-    /// Returns when this job and all before it are done. What a job on the thread has thrown is thrown here, by
-    /// every call from then on; jobs after it are not begun.
+    /// Returns when this job and all before it are done. What a job on the thread has thrown is thrown here,
+    /// by every call from then on; jobs after it are not begun.
     void wait(Ticket ticket) const;
     /// For all of them.
     void wait() const { wait(posted_); }
