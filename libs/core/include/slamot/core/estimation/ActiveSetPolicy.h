@@ -14,8 +14,8 @@ struct ActiveSetParameters {
     /// [m] at which landmarks are seen; not given: the sensors' own limits, or the longest range a landmark
     /// was met at where a sensor has none.
     std::optional<double> range;
-    double activate_margin = 0.25; ///< landmarks up to (1 + this) ranges away are activated
-    double keep_margin = 0.27;     ///< active ones are kept up to (1 + this) ranges away, or activate_margin
+    double activate_margin = 0.3;  ///< landmarks up to (1 + this) ranges away are activated
+    double keep_margin = 0.32;     ///< active ones are kept up to (1 + this) ranges away, or activate_margin
     double view_margin = pi / 3;   ///< [rad] beyond the edge of the field of view, twice that for keeping
     double base_growth = 3;        ///< commit when dim(beta) exceeds this times the active dimension
     double retirable_part = 0.03;  ///< commit when this part of the active landmarks is out of reach
