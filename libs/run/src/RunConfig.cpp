@@ -257,6 +257,8 @@ std::string fullConfigText(const std::string& plugin, const PluginRegistry& regi
                 "\n# What each sensor label's observations are: landmarks | movers | mixed | lidar | ignore. Labels of\n"
                 "# these names need no line; an empty label counts as landmarks.\n[sensors]\n";
     }
+    eval::EvaluationOptions evaluation;
+    text += "\n" + toIni(eval::describe(evaluation));
     for (const ParameterTable& table : tables) text += "\n" + toIni(table);
     return text;
 }

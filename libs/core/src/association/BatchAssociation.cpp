@@ -1,12 +1,12 @@
 #include "slamot/core/association/BatchAssociation.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <tuple>
 
 #include "slamot/core/association/AssociationMarginals.h"
+#include "slamot/core/association/DecidedPairs.h"
 #include "slamot/core/association/GatedPairs.h"
 #include "slamot/core/association/GlobalNearestNeighbour.h"
 #include "slamot/core/association/JointCompatibility.h"
@@ -83,10 +83,14 @@ class Batch {
           wide_(wide),
           innovations_(view, wide.measurements),
           gate_(gate) {
-        for (const VisibleObject& object : objects)
+        for (const VisibleObject& object : objects) {
             model_.detection_probability.push_back(object.detection_probability * object.visibility);
+            is_landmark_.push_back(object.kind == ObjectKind::landmark);
+        }
+        for (const RangeBearingDetection& detection : seen.detections) noise_.push_back(detection.covariance);
         model_.clutter_density = clutter_density;
         model_.gate_probability = parameters.gate_probability;
+        undecided_.assign(seen.detections.size(), -1);
     }
 
     void landmarks(int sensor, PairGates& gates, BatchAssociation& out);
@@ -103,8 +107,6 @@ class Batch {
     }
     bool isMover(const Candidate& c) const { return objectOf(c).kind == ObjectKind::mover; }
     Pairing landmarkPairing(const Part& part, JointInnovations& innovations, PairGates& gates) const;
-    std::vector<int> decided(std::vector<int> pairs, const Part& part, JointInnovations& innovations) const;
-    double evidence(const Candidate& pair, const InnovationFactor& given) const;
     void accept(const Candidate& candidate, int in_whole, BatchAssociation& out);
     void mergeMovers(const Part& part, InnovationFactor& given, BatchAssociation& out);
 
@@ -114,8 +116,11 @@ class Batch {
     const GatedPairs& wide_;
     LinearInnovations innovations_;
     DetectionModel model_;
+    std::vector<Matrix2> noise_;     ///< by detection
+    std::vector<bool> is_landmark_;  ///< by object
     double gate_;
     std::vector<int> landmark_pairs_;  ///< candidates of the whole
+    std::vector<int> undecided_;       ///< by detection: the landmark it may be of; -1: none, or decided
 };
 
 void Batch::accept(const Candidate& c, int in_whole, BatchAssociation& out) {
@@ -142,57 +147,17 @@ void Batch::landmarks(int sensor, PairGates& gates, BatchAssociation& out) {
     std::vector<int> pairs;
     for (const int c : pairing.candidate_of_detection)
         if (c >= 0 && !isMover(candidates.problem.candidate(c))) pairs.push_back(c);
-    const std::vector<int> sure = decided(pairs, candidates, innovations);
+    const std::vector<int> sure =
+        decidedPairs(candidates.problem, innovations, pairs, {model_, noise_, is_landmark_},
+                     parameters_.decide_probability);
     for (const int c : sure)
         accept(candidates.problem.candidate(c), candidates.in_whole[static_cast<std::size_t>(c)], out);
-    for (const int c : pairs)
-        if (std::find(sure.begin(), sure.end(), c) == sure.end())
-            out.in_doubt[static_cast<std::size_t>(candidates.problem.candidate(c).object)] = true;
-}
-
-/// log of the likelihood ratio of the last pair, given those before it, over what it takes. A gate that holds
-/// many places which the sensor can tell apart, sqrt(|S| / |R|), asks for as much more evidence: some of what
-/// was never seen before fits into a wide gate, and taking it for what is sought moves robot and map that
-/// far.
-double Batch::evidence(const Candidate& pair, const InnovationFactor& given) const {
-    const double ratio = std::log(objectOf(pair).detection_probability) + given.logConditional() -
-                         std::log(model_.clutter_density[static_cast<std::size_t>(pair.detection)]);
-    const double places = 0.5 * std::log(given.conditional().covariance.determinant() /
-                                         detectionOf(pair).covariance.determinant());
-    return ratio - places;
-}
-
-std::vector<int> Batch::decided(std::vector<int> open, const Part& candidates,
-                                JointInnovations& innovations) const {
-    const double p = parameters_.decide_probability, enough = std::log(p) - std::log1p(-p);
-    InnovationFactor given(innovations, static_cast<int>(open.size()));
-    std::vector<int> sure;
-    // One by one, in the light of those that are sure already ...
-    for (bool more = true; more;) {
-        more = false;
-        std::vector<int> rest;
-        for (const int c : open) {
-            const bool definite = given.push(c);
-            if (definite && evidence(candidates.problem.candidate(c), given) >= enough) {
-                sure.push_back(c);
-                more = true;
-                continue;
-            }
-            if (definite) given.pop();
-            rest.push_back(c);
-        }
-        open = std::move(rest);
+    for (const int c : pairs) {
+        if (std::find(sure.begin(), sure.end(), c) != sure.end()) continue;
+        const Candidate& pair = candidates.problem.candidate(c);
+        undecided_[static_cast<std::size_t>(pair.detection)] = pair.object;
+        out.in_doubt[static_cast<std::size_t>(pair.object)] = true;
     }
-    // ... then the others together: several that fit in one way bear each other out.
-    double together = 0;
-    std::vector<int> possible;
-    for (const int c : open) {
-        if (!given.push(c)) continue;
-        possible.push_back(c);
-        together += evidence(candidates.problem.candidate(c), given);
-    }
-    if (!possible.empty() && together >= enough) sure.insert(sure.end(), possible.begin(), possible.end());
-    return sure;
 }
 
 Pairing Batch::landmarkPairing(const Part& candidates, JointInnovations& innovations,
@@ -290,14 +255,17 @@ void Batch::findNew(int sensor, BatchAssociation& out) const {
     std::vector<char> taken(objects_.size(), 0);
     for (std::size_t d = 0; d < seen_.detections.size(); ++d) {
         const int object = out.of_detection[d].object;
-        if (seen_.detections[d].sensor != sensor || object < 0) continue;
+        if (seen_.detections[d].sensor != sensor) continue;
+        if (undecided_[d] >= 0) taken[static_cast<std::size_t>(undecided_[d])] = 1;
+        if (object < 0) continue;
         taken[static_cast<std::size_t>(object)] = 1;
         out.may_be_new[d] = false;
     }
     for (int c = 0; c < wide_.problem.candidates(); ++c) {
         const Candidate& pair = wide_.problem.candidate(c);
+        const auto d = static_cast<std::size_t>(pair.detection);
         if (detectionOf(pair).sensor == sensor && !taken[static_cast<std::size_t>(pair.object)])
-            out.may_be_new[static_cast<std::size_t>(pair.detection)] = false;
+            out.may_be_new[d] = false;
     }
 }
 
@@ -326,11 +294,12 @@ ParameterTable describe(AssociationParameters& p, const std::string& name) {
               "Part of an object's detections that lie inside its gate.")
         .real("separation_probability", p.separation_probability, "-", Interval::openProbability(),
               "A detection inside this gate of an object that is not seen otherwise starts no new object.")
-        .real(
-            "decide_probability", p.decide_probability, "-", Interval::openProbability(),
-            "Of a pair with a landmark, against something new or false in a gate as wide as this one; below "
-            "it the detection is left undecided: it corrects nothing and starts nothing, and the landmark "
-            "does not count as missed.")
+        .real("decide_probability", p.decide_probability, "-", Interval::openProbability(),
+              "Of a pair with a landmark, against another landmark and against something new or false in a "
+              "gate "
+              "as wide as this one; below it the pair is left undecided: the detection corrects nothing and "
+              "may "
+              "be of something new, and the landmark does not count as missed.")
         .integer("node_budget", p.node_budget, Interval::between(1, 1000000),
                  "Extensions of hypotheses that jcbb tries at most; beyond, the best met so far is taken, at "
                  "least as good as the sequential one.")

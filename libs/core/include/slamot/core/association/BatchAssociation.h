@@ -18,7 +18,8 @@ struct AssociationParameters {
     double gate_probability = 0.999;
     /// A detection within this gate of an object that is not seen otherwise starts no new one.
     double separation_probability = 1 - 1e-6;
-    /// Of a pair with a landmark, against something new or false; below it the detection is left undecided.
+    /// Of a pair with a landmark, against all else that its detection may come from; below it the pair is
+    /// left undecided.
     double decide_probability = 0.5;
     int node_budget = 1000;   ///< of joint compatibility branch and bound
     int state_budget = 2000;  ///< of the exact sums of JPDA
@@ -30,7 +31,7 @@ ParameterTable describe(AssociationParameters& parameters, const std::string& na
 /// An object of the joint state that may be seen now.
 struct VisibleObject {
     BlockId block;
-    ObjectKind kind;  ///< landmark or mover; detections of unknown kind may come from either
+    ObjectKind kind;               ///< landmark or mover; detections of unknown kind may come from either
     double detection_probability;  ///< while nothing hides it
     double visibility = 1;         ///< part of the time that nothing does
 };
@@ -44,8 +45,8 @@ struct BatchAssociation {
     };
     std::vector<Pair> of_detection;  ///< by number of detection
     /// By number of detection: it was to be associated, no object explains it, and all objects within whose
-    /// separation gate it lies are paired with others of its sensor: it may be of something new. Never where
-    /// the method of a kind that it may be of is `known`.
+    /// separation gate it lies are spoken for by pairs of its sensor, decided or not: it may be of something
+    /// new. Never where the method of a kind that it may be of is `known`.
     std::vector<bool> may_be_new;
     /// By number of object: one whose pair is undecided; it was neither seen nor missed.
     std::vector<bool> in_doubt;
