@@ -98,6 +98,34 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     EXPECT_LT(bank.activeDimension(), dense.state().dimension() / 2);
 }
 
+TEST_P(JointEngines, AgreeWhenLandmarksAreSeenBeforeTheyArePrepared) {
+    // Told that sensors see to 5 m, where they see to 12, the engine has most landmarks come unforeseen,
+    // while others are prepared.
+    const auto& [consistency, background] = GetParam();
+    JointFilterParameters parameters;
+    parameters.consistency = consistency;
+    parameters.target_max_unseen = 2;
+    parameters.engine.background = background;
+    parameters.engine.active_set.keep_at_least = 10;
+    parameters.engine.active_set.range = 5;
+    parameters.engine.active_set.activate_margin = 1.2;
+    parameters.engine.active_set.keep_margin = 1.25;
+    JointFilter compressed(parameters, {}), dense = filterWith(JointEngine::Kind::dense, consistency);
+    compressed.start({}, {{0, 0, 0}, Matrix3::Identity() * 1e-4});
+    test::LoopScene loop(5, 260);
+    for (int step = 0; step < 300; ++step) {
+        const OdometryIncrement odometry = loop.drive(step);
+        const DetectionSet set = loop.look(step);
+        for (JointFilter* filter : {&dense, &compressed}) {
+            filter->predict(odometry);
+            filter->update(set);
+        }
+        const Matrix3 P = dense.robot().covariance, difference = compressed.robot().covariance - P;
+        ASSERT_LT(difference.cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff()) << step;
+    }
+    EXPECT_GT(dynamic_cast<const CompressedJointBank&>(compressed.state()).unforeseen(), 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, JointEngines,
     testing::Combine(testing::Values(Consistency::classic, Consistency::invariant), testing::Bool()),
