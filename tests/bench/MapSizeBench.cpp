@@ -210,12 +210,12 @@ int main(int argc, char** argv) {
            "--rate", options.rate,
            "Hz; the largest map of each world once more, on two threads, with steps that come at this rate")
         ->check(CLI::Range(1.0, 1000.0));
-    app.add_flag("--only-rate", options.only_paced, "Nothing but the runs of --rate")
-        ->needs("--rate")
-        ->excludes("--fill");
     app.add_flag("--quick", options.quick, "Sizes to 1600 only, a few steps of dense and kf-slam");
     app.add_option("--out", options.out, "Folder of map_size.csv, .md and .svg");
     app.add_option("--fill", options.page, "Page whose marks `<!-- bench map_size ... -->` are filled");
+    app.add_flag("--only-rate", options.only_paced, "Nothing but the runs of --rate")
+        ->needs("--rate")
+        ->excludes("--fill");
     CLI11_PARSE(app, argc, argv);
     try {
         slamot::bench::run(options, fmt::format("{}", fmt::join(argv, argv + argc, " ")));
