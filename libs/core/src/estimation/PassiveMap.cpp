@@ -78,11 +78,12 @@ Eigen::MatrixXd PassiveMap::rowsProper(const Eigen::MatrixXd& rows) const {
 
 PassiveMap::Taken PassiveMap::prepare(const std::vector<BlockId>& landmarks) {
     forgetPrepared();
-    // Landmarks of far tiles: all around them comes near, since more will be asked for.
+    // Landmarks of far tiles: all around them comes near, since more will be asked for. And a group that
+    // landmarks were removed from is made anew, since rows are projected on its directions.
     std::vector<Vector2> places;
     for (const BlockId id : landmarks)
         if (tile(find(id).tile).far) places.push_back(tile(find(id).tile).centre());
-    if (!places.empty()) {
+    if (!places.empty() || group_.cut) {
         std::vector<char> far = farFrom(places);
         for (int t = 0; t < tileCount(); ++t) far[static_cast<std::size_t>(t)] &= tile(t).far ? 1 : 0;
         regroup(far);
