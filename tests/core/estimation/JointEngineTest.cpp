@@ -50,7 +50,7 @@ class JointEngines : public testing::TestWithParam<std::tuple<Consistency, bool>
 
 TEST_P(JointEngines, AgreeOverAWholeRun) {
     // The engines add the same numbers in another order, some 1e4 times; the map leaves
-    // out what is below 3e-12 of a standard deviation. 1e-9 of the largest number of a kind is what is
+    // out what is below 2e-12 of a standard deviation. 1e-9 of the largest number of a kind is what is
     // promised.
     test::LoopScene loop(5, 260);
     const auto& [consistency, background] = GetParam();
