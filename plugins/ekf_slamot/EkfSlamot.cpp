@@ -13,6 +13,7 @@ std::vector<ParameterTable> EkfSlamot::onParameters() {
 }
 
 void EkfSlamot::onStart(const Start& start) {
+    parameters_.engine.background = start.threads > 1;
     filter_ = std::make_unique<JointFilter>(parameters_, motion_);
     filter_->start(start.stamp, start.pose);
 }

@@ -41,6 +41,7 @@ void ImmSlamot::onInitialize(const Config& config) {
 }
 
 void ImmSlamot::onStart(const Start& start) {
+    parameters_.engine.background = start.threads > 1;
     filter_ = std::make_unique<JointFilter>(parameters_, motion_);
     filter_->start(start.stamp, start.pose);
 }

@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 struct Options {
     std::vector<int> sizes{50, 100, 200, 400, 800, 1600, 4000, 10000};
     double step = 0.1;  ///< [m]
+    double rate = 0;    ///< [Hz] of the runs at a sensor's rate; 0: none
+    bool only_paced = false;
     bool quick = false;
     std::string out = "map_size", page;
 };
@@ -45,9 +47,10 @@ void sayTimes(const char* program, const std::vector<StepTime>& times, double en
         t.steps, t.median, t.p99, t.longest, end_error));
 }
 
-CompressedRun measureCompressed(WorldLayout world, int landmarks, double step) {
-    say(fmt::format("{}, {} landmarks", nameOf(world), landmarks));
-    CompressedRun run = runCompressed(world, landmarks, step);
+CompressedRun measureCompressed(WorldLayout world, int landmarks, double step, const Pace& pace = {}) {
+    say(fmt::format("{}, {} landmarks{}", nameOf(world), landmarks,
+                    pace.rate > 0 ? fmt::format(", two threads, {} Hz", pace.rate) : ""));
+    CompressedRun run = runCompressed(world, landmarks, step, pace);
     std::vector<StepTime> times;
     for (const CompressedStep& each : run.steps) times.push_back(each.time);
     sayTimes("compressed", times, run.end_error);
@@ -78,9 +81,19 @@ std::vector<int> roadSizes(const std::vector<int>& sizes) {
     return out;
 }
 
+/// The largest map of each world.
+std::vector<CompressedRun> measurePaced(const Options& options) {
+    std::vector<CompressedRun> out;
+    for (const WorldLayout world : {WorldLayout::field, WorldLayout::road})
+        if (options.rate > 0)
+            out.push_back(measureCompressed(world, options.sizes.back(), options.step, {options.rate, true}));
+    return out;
+}
+
 Results measureAll(const Options& options) {
     const Patience patience = options.quick ? Patience{10, 10} : Patience{};
     Results results;
+    results.paced = measurePaced(options);
     for (const int landmarks : options.sizes)
         results.sizes.push_back(measureField(landmarks, options.step, patience));
     for (const int landmarks : roadSizes(options.sizes))
@@ -108,6 +121,7 @@ std::map<std::string, std::string> contents(const Results& results, const std::s
             {"table times", toMarkdown(timesTable(results))},
             {"table passes", toMarkdown(passesTable(results))},
             {"table steps", toMarkdown(stepsTable(results))},
+            {"table paced", toMarkdown(pacedTable(results))},
             {"table memory", toMarkdown(memoryTable(results))},
             {"table movers", toMarkdown(moversTable(results))},
             {"figure", fmt::format("![Time of a step and memory by map size]({}.svg)\n", figure)}};
@@ -123,12 +137,18 @@ void writeFile(const std::string& name, const std::string& text) {
     file.close();
 }
 
+void writePaced(const Results& results, const fs::path& folder) {
+    if (!results.paced.empty())
+        writeFile((folder / "map_size_paced.csv").string(), toCsv(pacedTable(results)));
+}
+
 void write(const Results& results, const std::string& stamp, const fs::path& folder) {
     std::string text;
     for (const auto& [mark, content] : contents(results, stamp, "map_size"))
         text += fmt::format("`{}`\n\n{}\n", mark, content);
     writeFile((folder / "map_size.md").string(), text);
     writeFile((folder / "map_size.csv").string(), toCsv(allTimesTable(results)));
+    writePaced(results, folder);
     writeFile((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
     writeFile((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
     drawSvg(results, folder / "map_size");
@@ -158,6 +178,14 @@ void run(Options options, const std::string& command) {
     fs::create_directories(options.out);
     if (!options.page.empty()) options.page = fs::canonical(options.page).string();
     const OtherLoad others;
+    if (options.only_paced) {
+        Results results;
+        results.paced = measurePaced(options);
+        writePaced(results, options.out);
+        std::cout << fmt::format("Others used {:.1f} % of the machine.\n\n", 100 * others.part())
+                  << toMarkdown(pacedTable(results));
+        return;
+    }
     const Results results = measureAll(options);
     const study::Provenance here = study::provenanceHere(command);
     const std::string stamp =
@@ -178,9 +206,16 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->check(CLI::Range(50, 20000));
     app.add_option("--step", options.step, "Metres between scans")->check(CLI::Range(0.01, 2.0));
+    app.add_option(
+           "--rate", options.rate,
+           "Hz; the largest map of each world once more, on two threads, with steps that come at this rate")
+        ->check(CLI::Range(1.0, 1000.0));
     app.add_flag("--quick", options.quick, "Sizes to 1600 only, a few steps of dense and kf-slam");
     app.add_option("--out", options.out, "Folder of map_size.csv, .md and .svg");
     app.add_option("--fill", options.page, "Page whose marks `<!-- bench map_size ... -->` are filled");
+    app.add_flag("--only-rate", options.only_paced, "Nothing but the runs of --rate")
+        ->needs("--rate")
+        ->excludes("--fill");
     CLI11_PARSE(app, argc, argv);
     try {
         slamot::bench::run(options, fmt::format("{}", fmt::join(argv, argv + argc, " ")));

@@ -73,9 +73,17 @@ study::Table checksTable(const Results& results) {
             without_commit = summarise(**run, [](const auto& step) { return !step.events.commit; }).p99;
             longest = summarise(**run, [](const auto&) { return true; }).longest;
         }
-        const std::string what = fmt::format("10,000 landmarks, {}: ", nameOf(world));
+        const std::string what = fmt::format("10,000 landmarks, {}, one thread: ", nameOf(world));
         checks.atMost(1, " ms", what + "99th percentile of steps without a commit", without_commit);
         checks.atMost(50, " ms", what + "longest step", longest);
+    }
+    for (const CompressedRun& run : results.paced) {
+        const std::string what = fmt::format("{} landmarks, {}, two threads, {} Hz, wall: ", run.landmarks,
+                                             nameOf(run.layout), run.pace.rate);
+        checks.atMost(1, " ms", what + "99th percentile of steps without a commit",
+                      summarise(run, [](const auto& step) { return !step.events.commit; }).wall_p99);
+        checks.atMost(50, " ms", what + "longest step",
+                      summarise(run, [](const auto&) { return true; }).wall_longest);
     }
 
     for (int modes = 1; modes <= 3; ++modes) {

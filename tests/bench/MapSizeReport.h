@@ -27,6 +27,7 @@ struct MoversResult {
 struct Results {
     std::vector<SizeResult> sizes;     ///< over the field, by rising size
     std::vector<CompressedRun> roads;  ///< by rising size
+    std::vector<CompressedRun> paced;  ///< at a sensor's rate, with a thread for what is put away
     std::vector<ModesResult> modes;
     std::vector<MoversResult> movers;
 };
@@ -44,6 +45,8 @@ study::Table timesTable(const Results& results);
 study::Table passesTable(const Results& results);
 /// Each kind of step of the compressed engine on the largest map of each world.
 study::Table stepsTable(const Results& results);
+/// Each kind of step at a sensor's rate.
+study::Table pacedTable(const Results& results);
 /// Over the field.
 study::Table memoryTable(const Results& results);
 study::Table moversTable(const Results& results);

@@ -1,6 +1,8 @@
 #include "MapSizeRuns.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "LaneWorld.h"
 #include "Machine.h"
@@ -49,15 +51,32 @@ class EventCounter {
   public:
     StepEvents next(const CompressedJointBank& bank) {
         const StepEvents events{bank.commits() != commits_, bank.activations() != activations_,
-                                bank.map().regroupings() != regroupings_};
+                                bank.unforeseen() != unforeseen_};
         commits_ = bank.commits();
         activations_ = bank.activations();
-        regroupings_ = bank.map().regroupings();
+        unforeseen_ = bank.unforeseen();
         return events;
     }
 
   private:
-    std::int64_t commits_ = 0, activations_ = 0, regroupings_ = 0;
+    std::int64_t commits_ = 0, activations_ = 0, unforeseen_ = 0;
+};
+
+/// Waits until the next step is to come. Steps that are late do not move those after them.
+class Metronome {
+  public:
+    explicit Metronome(double rate) : period_(rate > 0 ? 1 / rate : 0) {}
+    void wait() {
+        if (period_ == std::chrono::duration<double>(0)) return;
+        const auto after =
+            std::chrono::duration_cast<std::chrono::steady_clock::duration>(++steps_ * period_);
+        std::this_thread::sleep_until(begin_ + after);
+    }
+
+  private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::chrono::duration<double> period_;
+    std::int64_t steps_ = 0;
 };
 
 /// Drives a filter from a full map on until patience ends. The first step is not counted: it sets sizes.
@@ -90,26 +109,39 @@ std::size_t covarianceBytes(int landmarks) {
     return sizeof(double) * dimension * dimension;
 }
 
-CompressedRun runCompressed(WorldLayout layout, int landmarks, double step) {
+CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, const Pace& pace) {
     LaneWorld world(layout, landmarks, step);
     CompressedRun run;
     run.layout = layout;
+    run.pace = pace;
     run.steps.reserve(world.path().size());
     const ResidentGrowth resident;
-    JointFilter filter(parametersFor(JointEngine::Kind::compressed), {});
+    JointFilterParameters parameters = parametersFor(JointEngine::Kind::compressed);
+    parameters.engine.background = pace.background;
+    JointFilter filter(parameters, {});
     filter.start(world.stamp(0), {world.path().front(), start_covariance});
     EventCounter counter;
+    Metronome metronome(pace.rate);
+    const auto on_other_threads = [] { return processTime() - timeNow().processor; };
+    const double at_start = on_other_threads();
+    double half_way = at_start;
     for (std::size_t k = 1; k < world.path().size(); ++k) {
         const OdometryIncrement odometry = world.odometry(k);
         const DetectionSet seen = world.look(k);
+        metronome.wait();
         const StepTime time = timeStep(filter, odometry, seen);
+        if (!world.secondPass(k)) half_way = on_other_threads();
         const CompressedJointBank& bank = compressedBank(filter);
         run.steps.push_back({time, counter.next(bank), world.secondPass(k)});
         run.seen += static_cast<double>(countSeen(seen));
-        if (run.steps.back().events.any() || k + 1 == world.path().size())
+        // Asking waits for the thread: seldom, so that it has to keep up by itself.
+        if (k % 1000 == 0 || k + 1 == world.path().size())
             run.memory.state = std::max(run.memory.state, bank.memory());
     }
-    run.seen /= static_cast<double>(run.steps.size());
+    const auto steps = static_cast<double>(run.steps.size());
+    run.background_first = (half_way - at_start) / (0.5 * steps);
+    run.background_second = (on_other_threads() - half_way) / (0.5 * steps);
+    run.seen /= steps;
     run.landmarks = static_cast<int>(filter.landmarkCount());
     run.memory.resident = resident.peak();
     run.end_error = errorOf(filter.robot().mean, world.path().back());

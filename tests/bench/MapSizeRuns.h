@@ -13,8 +13,9 @@ namespace slamot::bench {
 
 /// What happened in a step of the compressed engine; several things may.
 struct StepEvents {
-    bool commit = false, activation = false, regrouping = false;
-    bool any() const { return commit || activation || regrouping; }
+    bool commit = false, activation = false;
+    bool unforeseen = false;  ///< an activation of what was seen before it had been prepared
+    bool any() const { return commit || activation; }
 };
 
 struct CompressedStep {
@@ -32,16 +33,24 @@ struct MemoryUse {
 /// One full covariance over the robot and so many landmarks.
 std::size_t covarianceBytes(int landmarks);
 
+/// How steps come, and whether the engine has a thread for what is put away.
+struct Pace {
+    double rate = 0;  ///< [Hz], by the clock on the wall; 0: each as soon as the one before is done
+    bool background = false;
+};
+
 struct CompressedRun {
     WorldLayout layout = WorldLayout::field;
+    Pace pace;
     int landmarks = 0;  ///< in the map at the end
     double seen = 0;    ///< landmarks a step, mean
     std::vector<CompressedStep> steps;
     MemoryUse memory;
-    double end_error = 0;  ///< [m], of the robot's position
+    double end_error = 0;                                ///< [m], of the robot's position
+    double background_first = 0, background_second = 0;  ///< [ms] a step of each pass, on other threads
 };
 /// ekf_slamot, invariant, over a run that sees all of the map twice.
-CompressedRun runCompressed(WorldLayout layout, int landmarks, double step);
+CompressedRun runCompressed(WorldLayout layout, int landmarks, double step, const Pace& pace = {});
 
 /// Steps in the midst of a map that is all there.
 struct FilledRun {

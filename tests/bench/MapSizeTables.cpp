@@ -19,7 +19,7 @@ const StepKind step_kinds[] = {
     {"with a commit", [](const StepEvents& e) { return e.commit; }},
     {"with an activation", [](const StepEvents& e) { return e.activation; }},
     {"with an activation but no commit", [](const StepEvents& e) { return e.activation && !e.commit; }},
-    {"with a regrouping", [](const StepEvents& e) { return e.regrouping; }},
+    {"with an unforeseen activation", [](const StepEvents& e) { return e.unforeseen; }},
 };
 
 const char* passName(bool second) {
@@ -142,6 +142,39 @@ study::Table stepsTable(const Results& results) {
                     {{textField(nameOf(run->layout)), countField(run->landmarks), textField(passName(second)),
                       textField(kind.name), countField(times.steps), numberField(times.median),
                       numberField(times.p99), numberField(times.longest), numberField(times.wall_longest)}});
+            }
+    return table;
+}
+
+study::Table pacedTable(const Results& results) {
+    study::Table table;
+    table.columns = {textColumn("world", "world"),
+                     numberColumn("landmarks", "landmarks"),
+                     numberColumn("rate [Hz]", "rate_hz"),
+                     textColumn("pass", "pass"),
+                     textColumn("steps", "steps_of"),
+                     numberColumn("number", "steps"),
+                     numberColumn("wall: median [ms]", "wall_median_ms"),
+                     numberColumn("99th percentile [ms]", "wall_p99_ms"),
+                     numberColumn("longest [ms]", "wall_longest_ms"),
+                     numberColumn("the step's thread: median [ms]", "median_ms"),
+                     numberColumn("99th percentile [ms]", "p99_ms"),
+                     numberColumn("longest [ms]", "longest_ms"),
+                     numberColumn("mean [ms]", "mean_ms"),
+                     numberColumn("the other thread: mean [ms]", "background_ms")};
+    for (const CompressedRun& run : results.paced)
+        for (const bool second : {false, true})
+            for (const StepKind& kind : step_kinds) {
+                const TimeSummary times = summaryOf(run, second, kind);
+                const bool all = &kind == &step_kinds[0];
+                table.lines.push_back(
+                    {{textField(nameOf(run.layout)), countField(run.landmarks), numberField(run.pace.rate),
+                      textField(passName(second)), textField(kind.name), countField(times.steps),
+                      numberField(times.wall_median), numberField(times.wall_p99),
+                      numberField(times.wall_longest), numberField(times.median), numberField(times.p99),
+                      numberField(times.longest), numberField(times.mean),
+                      numberField(all ? (second ? run.background_second : run.background_first)
+                                      : std::numeric_limits<double>::quiet_NaN())}});
             }
     return table;
 }

@@ -32,6 +32,10 @@ StepTime timeNow() {
     return {milliseconds(CLOCK_THREAD_CPUTIME_ID), milliseconds(CLOCK_MONOTONIC)};
 }
 
+double processTime() {
+    return milliseconds(CLOCK_PROCESS_CPUTIME_ID);
+}
+
 TimeSummary summarise(const std::vector<StepTime>& times) {
     std::vector<double> processor, wall;
     for (const StepTime& time : times) {
@@ -48,6 +52,7 @@ TimeSummary summarise(const std::vector<StepTime>& times) {
             percentile(processor, 0.99),
             percentile(processor, 1),
             percentile(wall, 0.5),
+            percentile(wall, 0.99),
             percentile(wall, 1)};
 }
 

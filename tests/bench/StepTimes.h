@@ -16,6 +16,9 @@ struct StepTime {
 StepTime operator-(const StepTime& end, const StepTime& begin);
 StepTime timeNow();
 
+/// [ms] of processor time that this process has taken, on all its threads.
+double processTime();
+
 /// Prediction and update of anything that has both.
 template <class Filter>
 StepTime timeStep(Filter& filter, const OdometryIncrement& odometry, const DetectionSet& seen) {
@@ -29,7 +32,7 @@ StepTime timeStep(Filter& filter, const OdometryIncrement& odometry, const Detec
 struct TimeSummary {
     std::size_t steps = 0;
     double mean, median, p99, longest;  ///< processor time
-    double wall_median, wall_longest;
+    double wall_median, wall_p99, wall_longest;
 };
 TimeSummary summarise(const std::vector<StepTime>& times);
 

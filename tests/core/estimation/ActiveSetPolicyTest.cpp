@@ -58,23 +58,47 @@ TEST(ActiveSetPolicyTest, FieldsOfViewHaveTheirMargin) {
     EXPECT_FALSE(policy.toActivate(at(2.1, pi)));
 }
 
-TEST(ActiveSetPolicyTest, DueWhenAMarginIsUsedUp) {
+TEST(ActiveSetPolicyTest, DueWhenAboutHalfAMarginIsUsedUp) {
     ActiveSetParameters parameters;
-    parameters.activate_margin = 0.5;
-    parameters.view_margin = 0.5;
+    parameters.activate_margin = 1;  // 20 m
+    parameters.view_margin = 1;
     ActiveSetPolicy policy(parameters);
     const RangeBearingSet set = oneSensor(20, 1.0);
     policy.look({{0, 0, 0}, set, nothing});
     EXPECT_TRUE(policy.due());
     policy.refreshed();
     EXPECT_FALSE(policy.due());
-    policy.look({{9.9, 0, 0.49}, set, nothing});
+    policy.look({{8.9, 0, 0.44}, set, nothing});
     EXPECT_FALSE(policy.due());
-    policy.look({{10.1, 0, 0}, set, nothing});
+    policy.look({{9.1, 0, 0}, set, nothing});
     EXPECT_TRUE(policy.due());
     policy.refreshed();
-    policy.look({{10.1, 0, -0.51}, set, nothing});
+    policy.look({{9.1, 0, -0.46}, set, nothing});
     EXPECT_TRUE(policy.due());
+}
+
+TEST(ActiveSetPolicyTest, APlanHoldsForTheOtherHalf) {
+    ActiveSetParameters parameters;
+    parameters.activate_margin = 1;  // 20 m
+    parameters.view_margin = 1;
+    ActiveSetPolicy policy(parameters);
+    RangeBearingSet set = oneSensor(20, 1.0);
+    policy.look({{0, 0, 0}, set, nothing});
+    EXPECT_FALSE(policy.planHolds()) << "there is none";
+    policy.planned();
+    EXPECT_TRUE(policy.planHolds());
+    EXPECT_TRUE(policy.due()) << "which is another matter";
+    policy.look({{0, 10.9, -0.54}, set, nothing});
+    EXPECT_TRUE(policy.planHolds());
+    policy.look({{0, 11.1, 0}, set, nothing});
+    EXPECT_FALSE(policy.planHolds());
+    policy.look({{0, 0, 0.56}, set, nothing});
+    EXPECT_FALSE(policy.planHolds());
+    policy.look({{0, 0, 0}, set, nothing});
+    EXPECT_TRUE(policy.planHolds());
+    set.sensors.front().max_range = 25;
+    policy.look({{0, 0, 0}, set, nothing});
+    EXPECT_FALSE(policy.planHolds()) << "there is more within reach than was thought";
 }
 
 TEST(ActiveSetPolicyTest, WithoutALimitTheLongestRangeOfALandmarkCounts) {

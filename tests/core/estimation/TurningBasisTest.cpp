@@ -113,5 +113,54 @@ TEST(TurningBasisTest, OrthonormalRowsDropWhatSaysNothing) {
     EXPECT_EQ(OrthonormalRows(W, {}, 1e-9).rank(), 0) << "no part is left: no direction either";
 }
 
+/// Rows over the two parts, three of them: 1e6 along V, and `left` beside it in random directions.
+CutRows mostlyAlong(const Eigen::MatrixXd& V, double left) {
+    RandomStream random(9, RandomPurpose::test);
+    const Eigen::MatrixXd rows =
+        1e6 * randomMatrix(random, 3, static_cast<int>(V.rows())) * V + left * randomMatrix(random, 3, 20);
+    return {rows.leftCols(12), rows.rightCols(8)};
+}
+
+TEST(TurningBasisTest, DirectionsBeyondABasisAreOrthogonalToIt) {
+    // V is orthonormal to half the digits, as it may be. Taken out of the rows once, 1e-8 of it stays there,
+    // of rows of 1e6; twice, 1e-16 and rounding: as much as what is left beside V, or more, and above what
+    // may go.
+    RandomStream random(8, RandomPurpose::test);
+    Eigen::MatrixXd basis = turningBasis(randomMatrix(random, 3, 20), 1e-12);
+    basis += 1e-8 * withTurnedRows(randomMatrix(random, 3, 20));
+    const CutRows V{basis.leftCols(12), basis.rightCols(8)};
+    for (const double left : {1e-3, 1e-7, 1e-9, 0.0}) {
+        const CutRows rows = mostlyAlong(basis, left);
+        const BeyondBasis parts({&V[0], &V[1]}, rows, 3, 1e-12);
+        const Eigen::MatrixXd beyond = joined(parts.directions);
+        const auto n = beyond.rows();
+        ASSERT_EQ(parts.weights.cols(), n);
+        EXPECT_LE(n, 6) << "no more than the rows and their turned ones";
+        EXPECT_TRUE(near(beyond * basis.transpose(), Eigen::MatrixXd::Zero(n, 6), 1e-10)) << left;
+        EXPECT_TRUE(near(beyond * beyond.transpose(), Eigen::MatrixXd::Identity(n, n), 1e-7)) << left;
+        for (int k = 0; k < n; k += 2) EXPECT_EQ(beyond.row(k + 1), turnedRows(beyond.row(k)).row(0));
+        // Nothing is lost but rounding.
+        EXPECT_TRUE(near(parts.along * basis + parts.weights * beyond, joined(rows), 1e-8)) << left;
+    }
+}
+
+TEST(TurningBasisTest, BeyondABasisOnlyWhatIsWorthIt) {
+    RandomStream random(8, RandomPurpose::test);
+    const Eigen::MatrixXd basis = turningBasis(randomMatrix(random, 3, 20), 1e-12);
+    const CutRows V{basis.leftCols(12), basis.rightCols(8)};
+    const CutRows rows = mostlyAlong(basis, 1e-3);
+    EXPECT_EQ(BeyondBasis({&V[0], &V[1]}, rows, 3, 1e-6).weights.cols(), 6);
+    const BeyondBasis parts({&V[0], &V[1]}, rows, 3, 1.0);
+    EXPECT_EQ(parts.weights.cols(), 0);
+    EXPECT_TRUE(near(parts.along * basis, joined(rows), 1.0));
+    // Of no V at all the rows themselves are beyond; of no part, nothing is.
+    const CutRows none{Eigen::MatrixXd(0, 12), Eigen::MatrixXd(0, 8)};
+    const BeyondBasis all({&none[0], &none[1]}, rows, 3, 1e-12);
+    EXPECT_TRUE(near(all.weights * joined(all.directions), joined(rows), 1e-8));
+    const BeyondBasis nothing({}, {}, 3, 1e-12);
+    EXPECT_EQ(nothing.along, Eigen::MatrixXd(3, 0));
+    EXPECT_EQ(nothing.weights, Eigen::MatrixXd(3, 0));
+}
+
 }  // namespace
 }  // namespace slamot

@@ -9,6 +9,9 @@ namespace {
 /// After a commit of the invariant core active state and base together have three times the active
 /// dimensions.
 constexpr int dividing_factor = 4;
+/// Parts of the margins. When the first is used up, what was chosen before is activated; that is chosen a
+/// step later at the earliest, and has to do until the first is used up once more: both make one.
+constexpr double due_after = 0.45, plan_holds = 0.55;
 
 }  // namespace
 
@@ -21,7 +24,7 @@ ParameterTable describe(ActiveSetParameters& p, const std::string& name) {
             "How far the sensors see landmarks; auto: their own limits, or the longest range one was met "
             "at. Sensors that see movers only do not count.")
         .real("activate_margin", p.activate_margin, "-", Interval::nonNegative(),
-              "Landmarks are brought in up to (1 + this) ranges away.")
+              "Landmarks are brought in up to (1 + this) ranges away, every half of this in travel.")
         .real("keep_margin", p.keep_margin, "-", Interval::nonNegative(),
               "They are kept up to (1 + this) ranges away; at least activate_margin is taken.")
         .real("view_margin_deg", p.view_margin, "deg", Interval::between(0, 180),
@@ -48,7 +51,7 @@ void ActiveSetPolicy::look(const Attention& attention) {
         Sensor& sensor = of(seen);
         if (range <= sensor.range) continue;
         sensor.range = range;
-        sensor.known = false;
+        sensor.at_refresh = sensor.at_plan = std::nullopt;
         range_ = std::max(range_, range);
     }
 }
@@ -57,27 +60,35 @@ ActiveSetPolicy::Sensor& ActiveSetPolicy::of(const RangeBearingSensor& seen) {
     const auto same = [&seen](const Sensor& s) { return s.label == seen.label; };
     auto sensor = std::find_if(sensors_.begin(), sensors_.end(), same);
     if (sensor == sensors_.end())
-        sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}});
+        sensor = sensors_.insert(sensor, Sensor{seen.label, 0, seen.field_of_view, {}, {}, {}});
     return *sensor;
 }
 
+bool ActiveSetPolicy::used(double part, const Sensor& s, const std::optional<Pose2>& since) const {
+    if (s.range == 0) return false;
+    if (!since) return true;
+    const double moved = (s.now.position() - since->position()).norm();
+    const double turned = std::abs(angleDifference(s.now.theta, since->theta));
+    return moved >= part * parameters_.activate_margin * s.range ||
+           (s.field_of_view < 2 * pi && turned >= part * parameters_.view_margin);
+}
+
 bool ActiveSetPolicy::due() const {
-    return std::any_of(sensors_.begin(), sensors_.end(), [this](const Sensor& s) {
-        if (s.range == 0) return false;
-        if (!s.known) return true;
-        // What is in view now was within reach then, as long as neither margin is used up.
-        const double moved = (s.now.position() - s.at_refresh.position()).norm();
-        const double turned = std::abs(angleDifference(s.now.theta, s.at_refresh.theta));
-        return moved >= parameters_.activate_margin * s.range ||
-               (s.field_of_view < 2 * pi && turned >= parameters_.view_margin);
-    });
+    return std::any_of(sensors_.begin(), sensors_.end(),
+                       [this](const Sensor& s) { return used(due_after, s, s.at_refresh); });
 }
 
 void ActiveSetPolicy::refreshed() {
-    for (Sensor& sensor : sensors_) {
-        sensor.at_refresh = sensor.now;
-        sensor.known = true;
-    }
+    for (Sensor& sensor : sensors_) sensor.at_refresh = sensor.now;
+}
+
+bool ActiveSetPolicy::planHolds() const {
+    return std::none_of(sensors_.begin(), sensors_.end(),
+                        [this](const Sensor& s) { return used(plan_holds, s, s.at_plan); });
+}
+
+void ActiveSetPolicy::planned() {
+    for (Sensor& sensor : sensors_) sensor.at_plan = sensor.now;
 }
 
 bool ActiveSetPolicy::within(const Vector2& landmark, double margin, double view_margins) const {

@@ -181,14 +181,14 @@ BatchLikelihood BlockGaussian::update(const BlockLayout& layout, const std::vect
         }
     }
 
-    // S = H P H^t + R = L L^t
+    // S = H P H^t + R = L L^t, of whose lower triangle alone the factor is made.
     for (std::size_t i = 0; i < batch.size(); ++i) {
         const int row = rows * static_cast<int>(i);
-        auto out = S.middleRows<rows>(row);
+        auto out = S.block(row, 0, rows, row + rows);
         out.setZero();
         for (int k = 0; k < batch[i].term_count; ++k) {
             const auto& [id, H] = batch[i].terms[k];
-            out.noalias() += H * PHt.middleRows(layout.at(id).offset, H.cols());
+            out.noalias() += H * PHt.block(layout.at(id).offset, 0, H.cols(), row + rows);
         }
         out.middleCols<rows>(row) += batch[i].R;
         nu.segment<rows>(row) = batch[i].residual;

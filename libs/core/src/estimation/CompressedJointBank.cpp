@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "slamot/core/estimation/CommonConditional.h"
 #include "slamot/core/estimation/DenseAlgebra.h"
@@ -10,11 +11,12 @@ namespace slamot {
 
 CompressedJointBank::CompressedJointBank(const Vector3& robot, const Matrix3& covariance,
                                          Consistency consistency, int modes,
-                                         const ActiveSetParameters& policy)
+                                         const ActiveSetParameters& policy, bool background)
     : consistency_(consistency),
       modes_(static_cast<std::size_t>(modes), Mode(*this)),
       map_(consistency == Consistency::invariant),
-      policy_(policy) {
+      policy_(policy),
+      worker_(background) {
     augment(BlockKind::robot, NewBlock{robot, {}, covariance});
 }
 
@@ -23,17 +25,31 @@ CompressedJointBank::CompressedJointBank(const CompressedJointBank& other)
       consistency_(other.consistency_),
       layout_(other.layout_),
       base_(other.base_),
+      base_dimension_(other.base_dimension_),
       next_id_(other.next_id_),
       modes_(other.modes_),
-      map_(other.map_),
+      away_(other.away_),
+      away_count_(other.away_count_),
+      map_(other.map()),
       policy_(other.policy_),
+      plan_(other.plan_),
       commits_(other.commits_),
-      activations_(other.activations_) {
+      activations_(other.activations_),
+      unforeseen_(other.unforeseen_),
+      worker_(other.worker_.background()) {
     for (Mode& mode : modes_) mode.bank = this;
+    if (plan_) plan_->job = 0;  // map() has waited for it
 }
 
 BlockKind CompressedJointBank::kind(BlockId block) const {
-    return map_.contains(block) ? BlockKind::landmark : layout_.at(block).kind;
+    return away(block) ? BlockKind::landmark : layout_.at(block).kind;
+}
+
+void CompressedJointBank::setAway(BlockId landmark, bool away) {
+    const auto id = static_cast<std::size_t>(landmark);
+    if (id >= away_.size()) away_.resize(id + 1);
+    away_[id] = away ? 1 : 0;
+    away_count_ += away ? 1 : -1;
 }
 
 BlockId CompressedJointBank::augment(BlockKind kind, const std::vector<NewBlock>& by_mode) {
@@ -44,9 +60,11 @@ BlockId CompressedJointBank::augment(BlockKind kind, const std::vector<NewBlock>
 }
 
 void CompressedJointBank::remove(BlockId id) {
-    if (map_.contains(id)) {
-        map_.remove(id);
-        if (map_.size() == 0) removeBase();
+    if (away(id)) {
+        plan_.reset();
+        worker_.post([this, id] { map_.remove(id); });
+        setAway(id, false);
+        if (away_count_ == 0) removeBase();
         return;
     }
     const BlockPlace gone = layout_.at(id);
@@ -80,23 +98,37 @@ void CompressedJointBank::appendBase(int rows) {
     for (Mode& mode : modes_) mode.gaussian.append(rows);
     layout_.append(next_id_, BlockKind::extra, rows, consistency_ == Consistency::invariant ? rows / 2 : 0);
     base_.push_back(next_id_++);
+    base_dimension_ += rows;
+}
+
+std::shared_ptr<const PassiveMap::Taken> CompressedJointBank::prepare(const std::vector<BlockId>& landmarks) {
+    if (plan_) {
+        const Plan plan = *std::exchange(plan_, std::nullopt);
+        worker_.wait(plan.job);
+        if (plan.taken->landmarks == landmarks) return plan.taken;
+    }
+    const auto taken = std::make_shared<PassiveMap::Taken>();
+    worker_.wait(worker_.post([this, taken, landmarks] { *taken = map_.prepare(landmarks); }));
+    return taken;
 }
 
 void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
-    std::vector<BlockId> away;
+    std::vector<BlockId> coming;
     for (const BlockId id : landmarks)
-        if (map_.contains(id)) away.push_back(id);
-    if (away.empty()) return;
+        if (away(id)) coming.push_back(id);
+    if (coming.empty()) return;
     // Two sensors may have measured one landmark at the same time.
-    std::sort(away.begin(), away.end());
-    away.erase(std::unique(away.begin(), away.end()), away.end());
+    std::sort(coming.begin(), coming.end());
+    coming.erase(std::unique(coming.begin(), coming.end()), coming.end());
     ++activations_;
 
     // c = c0 + B_c^t beta + e_c. What the base's rows proper, U, do not say of the covariance of e_c with
     // what stays, P_cr0 - U_c^t U_r, becomes base rows gamma, whitened. So e_c has the formal covariances U_c
     // with the rows proper of beta and P_c|^1/2 with those of gamma.
     const std::vector<int> beta = baseCoordinates();
-    const PassiveMap::Taken taken = map_.take(away);
+    const auto prepared = prepare(coming);
+    const PassiveMap::Taken& taken = *prepared;
+    worker_.post([this, prepared] { map_.take(*prepared); });
     const int columns = static_cast<int>(taken.mean.size()), before = layout_.dimension();
     appendBase(taken.new_rows);
     const int gamma = before, c = gamma + taken.new_rows, step = taken.new_rows / columns;
@@ -119,8 +151,11 @@ void CompressedJointBank::activate(const std::vector<BlockId>& landmarks) {
             g.lower().col(gamma + step * k).segment(c, columns) = taken.root.col(k);
         g.lower().block(c, c, columns, columns) = P_cc;
     }
-    for (const BlockId id : away) layout_.append(id, BlockKind::landmark, 2);
-    if (map_.size() == 0) removeBase();
+    for (const BlockId id : coming) {
+        layout_.append(id, BlockKind::landmark, 2);
+        setAway(id, false);
+    }
+    if (away_count_ == 0) removeBase();
 }
 
 void CompressedJointBank::removeBase() {
@@ -130,14 +165,17 @@ void CompressedJointBank::removeBase() {
         layout_.remove(id);
     }
     base_.clear();
-    map_.clear();
+    base_dimension_ = 0;
+    plan_.reset();
+    worker_.post([this] { map_.clear(); });
 }
 
 void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) {
-    if (landmarks.empty() && map_.size() == 0) return;
+    if (landmarks.empty() && away_count_ == 0) return;
     ++commits_;
+    plan_.reset();
     for (const BlockId id : landmarks)
-        if (!map_.contains(id)) layout_.setPutAway(id, true);
+        if (!away(id)) layout_.setPutAway(id, true);
 
     // (1), (2) One distribution for all modes, at the merged mean.
     std::vector<BlockGaussian*> modes;
@@ -148,30 +186,32 @@ void CompressedJointBank::commit(const std::vector<BlockId>& landmarks, const Mo
     // (3) What is put away leaves a; the kept rest gives the new base.
     PassiveMap::Commit commit;
     BlockLayout kept_layout;
-    std::vector<int> kept, away;
+    std::vector<int> kept, leaving;
     for (const BlockPlace& block : layout_.places()) {
         if (std::find(base_.begin(), base_.end(), block.id) != base_.end()) continue;
         if (block.put_away)
             commit.landmarks.push_back(block.id);
         else
             kept_layout.append(block.id, block.kind, block.size);
-        for (int k = 0; k < block.size; ++k) (block.put_away ? away : kept).push_back(block.offset + k);
+        for (int k = 0; k < block.size; ++k) (block.put_away ? leaving : kept).push_back(block.offset + k);
     }
     const std::vector<int> beta = baseCoordinates();
     const SquareRoot root = squareRoot(P(kept, kept));
     commit.Psi = P(beta, beta);
     commit.eta = matched.mean(beta);
     commit.rows = product(root.whitener, P(kept, beta));
-    commit.mean = matched.mean(away);
-    commit.base = product(root.whitener, P(kept, away));
-    commit.Phi = P(away, beta);
-    commit.covariance = P(away, away);
-    map_.commit(commit);
+    commit.mean = matched.mean(leaving);
+    commit.base = product(root.whitener, P(kept, leaving));
+    commit.Phi = P(leaving, beta);
+    commit.covariance = P(leaving, leaving);
+    for (const BlockId id : commit.landmarks) setAway(id, true);
+    worker_.post([this, commit = std::move(commit)] { map_.commit(commit); });
 
+    const bool turning = consistency_ == Consistency::invariant;
     layout_ = kept_layout;
     base_.assign(1, next_id_++);
-    const int q = map_.baseDimension();
-    layout_.append(base_.front(), BlockKind::extra, q, consistency_ == Consistency::invariant ? q / 2 : 0);
+    base_dimension_ = static_cast<int>(kept.size()) * (turning ? 2 : 1);
+    layout_.append(base_.front(), BlockKind::extra, base_dimension_, turning ? base_dimension_ / 2 : 0);
     for (std::size_t i = 0; i < modes_.size(); ++i)
         restart(modes_[i].gaussian, kept, root, matched.deviation.col(static_cast<Eigen::Index>(i)));
 }
@@ -203,31 +243,51 @@ void CompressedJointBank::restart(BlockGaussian& mode, const std::vector<int>& k
 }
 
 void CompressedJointBank::attend(const Attention& attention, const ModeWeights& weights) {
-    map_.step();
     policy_.look(attention);
     Eigen::Index reference = 0;
     weights.maxCoeff(&reference);
     const Mode& mode = modes_[static_cast<std::size_t>(reference)];
 
+    const bool due = policy_.due();
+    if (away_count_ > 0 && policy_.range() > 0) {
+        const bool planning = !plan_ || (due && !policy_.planHolds());
+        // Grouping anew can wait until what is due, or is to be prepared, has been done.
+        worker_.post([this, robot = Vector2(mode.gaussian.mean().head<2>()), reach = policy_.range(),
+                      busy = due || planning] {
+            map_.step();
+            map_.follow(robot, reach, busy);
+        });
+        if (planning) plan(mode);
+    }
+    if (due) {
+        // In comes what was chosen ahead, before what has fallen behind goes.
+        if (plan_) {
+            worker_.wait(plan_->job);
+            activate(std::vector<BlockId>(plan_->taken->landmarks));
+        }
+        retire(mode, attention.measured, weights);
+        policy_.refreshed();
+        plan_.reset();
+    }
     coming_.clear();
     for (const BlockId id : attention.measured)
-        if (map_.contains(id)) coming_.push_back(id);
-    const bool due = policy_.due();
-    // Out goes what has fallen behind, before what has come close joins.
-    if (due) retire(mode, attention.measured, weights);
-    if (policy_.range() > 0) map_.follow(mode.gaussian.mean().head<2>(), policy_.range(), due);
-    if (due) {
-        if (map_.size() > 0) {
-            const Eigen::VectorXd eta = mode.gaussian.mean()(baseCoordinates());
-            map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
-                if (policy_.toActivate(position) &&
-                    std::find(coming_.begin(), coming_.end(), id) == coming_.end())
-                    coming_.push_back(id);
-            });
-        }
-        policy_.refreshed();
-    }
+        if (away(id)) coming_.push_back(id);
+    unforeseen_ += coming_.empty() ? 0 : 1;
     activate(coming_);
+}
+
+void CompressedJointBank::plan(const Mode& mode) {
+    policy_.planned();
+    plan_ = Plan{0, std::make_shared<PassiveMap::Taken>()};
+    plan_->job = worker_.post([this, taken = plan_->taken, policy = policy_,
+                               eta = Eigen::VectorXd(mode.gaussian.mean()(baseCoordinates()))] {
+        std::vector<BlockId> coming;
+        map_.forNearPositions(eta, [&](BlockId id, const Vector2& position) {
+            if (policy.toActivate(position)) coming.push_back(id);
+        });
+        std::sort(coming.begin(), coming.end());
+        if (!coming.empty()) *taken = map_.prepare(coming);
+    });
 }
 
 void CompressedJointBank::retire(const Mode& mode, const std::vector<BlockId>& measured,
@@ -242,7 +302,7 @@ void CompressedJointBank::retire(const Mode& mode, const std::vector<BlockId>& m
             leaving_.push_back(block.id);
     }
     if (policy_.worthCommit(activeDimension(), active_landmarks, static_cast<int>(leaving_.size()),
-                            map_.baseDimension()))
+                            base_dimension_))
         commit(leaving_, weights);
 }
 
@@ -250,79 +310,7 @@ std::size_t CompressedJointBank::memory() const {
     std::size_t numbers = 0;
     const auto n = static_cast<std::size_t>(layout_.dimension());
     numbers += n * (n + 1) * (modes_.size() + mixed_.size());
-    return sizeof(double) * numbers + map_.memory();
-}
-
-BlockVector CompressedJointBank::Mode::mean(BlockId id) const {
-    if (bank->map_.contains(id)) {
-        const Eigen::VectorXd eta = gaussian.mean()(bank->baseCoordinates());
-        return bank->map_.mean(id) + bank->map_.base(id).transpose() * eta;
-    }
-    const BlockPlace& block = bank->layout_.at(id);
-    return gaussian.mean().segment(block.offset, block.size);
-}
-
-Eigen::MatrixXd CompressedJointBank::Mode::dependence(BlockId id) const {
-    const int n = bank->layout_.dimension();
-    if (bank->map_.contains(id)) {
-        Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2, n);
-        out(Eigen::all, bank->baseCoordinates()) = bank->map_.base(id).transpose();
-        return out;
-    }
-    const BlockPlace& block = bank->layout_.at(id);
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(block.size, n);
-    out.middleCols(block.offset, block.size).setIdentity();
-    return out;
-}
-
-BlockMatrix CompressedJointBank::Mode::covariance(BlockId a, BlockId b) const {
-    const PassiveMap& map = bank->map_;
-    const bool away_a = map.contains(a), away_b = map.contains(b);
-    if (!away_a && !away_b) return gaussian.covariance(bank->layout_.at(a), bank->layout_.at(b));
-    Eigen::MatrixXd out =
-        dependence(a) * (gaussian.lower().selfadjointView<Eigen::Lower>() * dependence(b).transpose());
-    if (away_a && away_b) out += map.covariance(a, b);
-    return out;
-}
-
-Eigen::MatrixXd CompressedJointBank::Mode::jointCovariance(const std::vector<BlockId>& blocks) const {
-    if (std::none_of(blocks.begin(), blocks.end(), [&](BlockId id) { return bank->map_.contains(id); }))
-        return gaussian.jointCovariance(bank->layout_, blocks);
-    const int n = bank->layout_.dimension();
-    std::vector<Eigen::MatrixXd> parts;
-    int size = 0;
-    for (const BlockId id : blocks) {
-        parts.push_back(dependence(id));
-        size += static_cast<int>(parts.back().rows());
-    }
-    Eigen::MatrixXd T(size, n);
-    std::vector<int> offset;
-    int row = 0;
-    for (const Eigen::MatrixXd& part : parts) {
-        offset.push_back(row);
-        T.middleRows(row, part.rows()) = part;
-        row += static_cast<int>(part.rows());
-    }
-    Eigen::MatrixXd out = T * (gaussian.lower().selfadjointView<Eigen::Lower>() * T.transpose());
-    out = 0.5 * (out + out.transpose()).eval();
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        if (!bank->map_.contains(blocks[i])) continue;
-        for (std::size_t j = 0; j < blocks.size(); ++j)
-            if (bank->map_.contains(blocks[j]))
-                out.block<2, 2>(offset[i], offset[j]) += bank->map_.covariance(blocks[i], blocks[j]);
-    }
-    return out;
-}
-
-void CompressedJointBank::Mode::propagate(BlockId block, const Eigen::Ref<const Eigen::VectorXd>& mean,
-                                          const Eigen::Ref<const Eigen::MatrixXd>& F,
-                                          const Eigen::Ref<const Eigen::MatrixXd>& Q,
-                                          const std::vector<Coupling>& couplings) {
-    gaussian.propagate(bank->layout_, block, mean, F, Q, couplings);
-}
-
-BatchLikelihood CompressedJointBank::Mode::update(const std::vector<LinearMeasurement>& batch) {
-    return gaussian.update(bank->layout_, batch, bank->consistency_);
+    return sizeof(double) * numbers + map().memory();
 }
 
 }  // namespace slamot

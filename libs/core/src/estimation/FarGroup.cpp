@@ -29,10 +29,12 @@ void FarGroup::extend(int directions) {
 void FarGroup::dropColumns(int tile, const std::vector<int>& kept) {
     if (tile >= static_cast<int>(parts.size())) return;
     Part& p = part(tile);
-    if (p.far)
+    if (p.far) {
+        cut |= static_cast<Eigen::Index>(kept.size()) < p.V.cols();
         p.V = Eigen::MatrixXd(p.V(Eigen::all, kept));
-    else
-        p.C = Eigen::MatrixXd(p.C(kept, Eigen::all));
+        return;
+    }
+    p.C = Eigen::MatrixXd(p.C(kept, Eigen::all));
 }
 
 WaitingTerm FarGroup::aboutTwoFar(double negligible) const {

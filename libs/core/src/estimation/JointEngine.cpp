@@ -11,7 +11,7 @@ std::unique_ptr<JointBank> makeJointBank(const JointEngine& engine, const PoseGa
     if (engine.kind == JointEngine::Kind::dense)
         return std::make_unique<DenseJointBank>(mean, robot.covariance, consistency, modes);
     return std::make_unique<CompressedJointBank>(mean, robot.covariance, consistency, modes,
-                                                 engine.active_set);
+                                                 engine.active_set, engine.background);
 }
 
 }  // namespace slamot

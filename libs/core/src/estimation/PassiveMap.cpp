@@ -1,6 +1,7 @@
 #include "slamot/core/estimation/PassiveMap.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "slamot/core/estimation/DenseAlgebra.h"
 #include "slamot/core/estimation/SquareRoot.h"
@@ -52,8 +53,8 @@ Vector2 PassiveMap::mean(BlockId landmark) const {
 
 Eigen::MatrixXd PassiveMap::base(BlockId landmark) const {
     const auto& [t, i] = find(landmark);
-    if (tile(t).far) return group_.W * group_.part(t).V.middleCols<2>(2 * i);
-    return tile(t).X.middleCols<2>(2 * i);
+    if (tile(t).far) return group_.W.topRows(q_) * group_.part(t).V.middleCols<2>(2 * i);
+    return tile(t).X.topRows(q_).middleCols<2>(2 * i);
 }
 
 Matrix2 PassiveMap::covariance(BlockId a, BlockId b) const {
@@ -75,29 +76,32 @@ Eigen::MatrixXd PassiveMap::rowsProper(const Eigen::MatrixXd& rows) const {
     return turning_ ? firstOfPairs(rows) : rows;
 }
 
-PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
-    // Landmarks of far tiles: all around them comes near, since more will be asked for.
+PassiveMap::Taken PassiveMap::prepare(const std::vector<BlockId>& landmarks) {
+    forgetPrepared();
+    // Landmarks of far tiles: all around them comes near, since more will be asked for. And a group that
+    // landmarks were removed from is made anew, since rows are projected on its directions.
     std::vector<Vector2> places;
     for (const BlockId id : landmarks)
         if (tile(find(id).tile).far) places.push_back(tile(find(id).tile).centre());
-    if (!places.empty()) {
+    if (!places.empty() || group_.cut) {
         std::vector<char> far = farFrom(places);
         for (int t = 0; t < tileCount(); ++t) far[static_cast<std::size_t>(t)] &= tile(t).far ? 1 : 0;
         regroup(far);
     }
 
-    const int columns = 2 * static_cast<int>(landmarks.size());
+    const auto count = static_cast<Eigen::Index>(landmarks.size()), columns = 2 * count;
     Taken taken;
+    taken.landmarks = landmarks;
     taken.mean.resize(columns);
     taken.base.resize(q_, columns);
     taken.covariance.resize(columns, columns);
     std::vector<Address> addresses;
-    for (int i = 0; i < columns / 2; ++i) {
+    for (Eigen::Index i = 0; i < count; ++i) {
         const BlockId id = landmarks[static_cast<std::size_t>(i)];
         addresses.push_back(find(id));
         taken.mean.segment<2>(2 * i) = mean(id);
         taken.base.middleCols<2>(2 * i) = base(id);
-        for (int j = 0; j < columns / 2; ++j)
+        for (Eigen::Index j = 0; j < count; ++j)
             taken.covariance.block<2, 2>(2 * i, 2 * j) =
                 covariance(id, landmarks[static_cast<std::size_t>(j)]);
     }
@@ -105,17 +109,31 @@ PassiveMap::Taken PassiveMap::take(const std::vector<BlockId>& landmarks) {
     const SquareRoot root = squareRoot(taken.covariance - transposedProduct(proper, proper));
     addRows(addresses, proper, root.whitener);
     taken.root = root.root;
-    taken.new_rows = columns * (turning_ ? 2 : 1);
-    q_ += taken.new_rows;
-
-    std::vector<std::vector<int>> gone(tiles_.size());
-    for (const Address& address : addresses)
-        gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
-    for (int t = 0; t < tileCount(); ++t) drop(t, gone[static_cast<std::size_t>(t)]);
+    taken.new_rows = prepared_rows_ = static_cast<int>(columns) * (turning_ ? 2 : 1);
     return taken;
 }
 
+void PassiveMap::take(const Taken& taken) {
+    if (taken.base.rows() != q_ || taken.new_rows != prepared_rows_)
+        throw std::logic_error("these landmarks were not prepared last");
+    q_ += std::exchange(prepared_rows_, 0);
+    std::vector<std::vector<int>> gone(tiles_.size());
+    for (const BlockId id : taken.landmarks) {
+        const Address& address = find(id);
+        gone[static_cast<std::size_t>(address.tile)].push_back(address.index);
+    }
+    for (int t = 0; t < tileCount(); ++t) drop(t, gone[static_cast<std::size_t>(t)]);
+}
+
+void PassiveMap::forgetPrepared() {
+    if (std::exchange(prepared_rows_, 0) == 0) return;
+    group_.W.conservativeResize(q_, Eigen::NoChange);
+    for (int t = 0; t < tileCount(); ++t)
+        if (used(t) && !tile(t).far) tile(t).X.conservativeResize(q_, Eigen::NoChange);
+}
+
 void PassiveMap::remove(BlockId landmark) {
+    forgetPrepared();
     const Address address = find(landmark);
     drop(address.tile, {address.index});
 }
@@ -127,7 +145,7 @@ void PassiveMap::clear() {
     }
     group_ = {};
     group_.parts.resize(tiles_.size());
-    q_ = 0;
+    q_ = prepared_rows_ = 0;
 }
 
 void PassiveMap::drop(int t, const std::vector<int>& gone) {

@@ -10,6 +10,7 @@ constexpr double tile_radius = 1.0;  // reaches of the sensors: how far from a t
 }  // namespace
 
 void PassiveMap::commit(const Commit& commit) {
+    forgetPrepared();
     addTerm(commit.Psi);
 
     // The new base, and what the landmarks that are put away have to do with those that are away.

@@ -16,7 +16,7 @@ constexpr double latest = 1.25;  // of that, whatever else there is to do
 /// Directions that carry less than this part of a standard deviation, in the root mean square over all
 /// landmarks, are left out. What the engine says differs from what the dense one says by some ten times as
 /// much.
-constexpr double tolerance = 3e-12;
+constexpr double tolerance = 2e-12;
 /// What the end of a group leaves out, in parts of a variance.
 constexpr double negligible = 1e-12;
 
@@ -77,7 +77,7 @@ void PassiveMap::regroup(const std::vector<char>& far) {
     const OrthonormalRows stayed(group_.W, V, negligibleLength());
     int columns = stayed.rank();
     for (const int t : joining) columns += tile(t).width();
-    Eigen::MatrixXd M(q_, columns);
+    Eigen::MatrixXd M(group_.W.rows(), columns);
     M.leftCols(stayed.rank()) = stayed.W();
     columns = stayed.rank();
     for (const int t : joining) {

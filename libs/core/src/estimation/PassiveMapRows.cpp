@@ -29,36 +29,26 @@ void PassiveMap::addRows(const std::vector<Address>& taken, const Eigen::MatrixX
 
 void PassiveMap::addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
                             const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener) {
-    // What of the rows lies along V, twice for rounding; what does not gives new directions.
+    // P_ct0 - U_c^t U_t first: both are large and nearly the same, and whitening scales up.
+    const Eigen::MatrixXd along_V = waiting - transposedProduct(known, rowsProper(group_.W));
     std::vector<int> far;
-    CutRows rest;
+    CutRowsView V;
+    CutRows more;
     for (int t = 0; t < tileCount(); ++t) {
         if (!used(t) || !tile(t).far) continue;
         far.push_back(t);
-        rest.push_back(product(whitener, rows.with(t, tile(t).width())));
-    }
-    const Eigen::Index count = waiting.rows();
-    Eigen::MatrixXd along = product(whitener, waiting - transposedProduct(known, rowsProper(group_.W)));
-    for (int pass = 0; pass < 2 && group_.rank() > 0; ++pass) {
-        Eigen::MatrixXd part = Eigen::MatrixXd::Zero(count, group_.rank());
-        for (std::size_t i = 0; i < far.size(); ++i)
-            part += productTransposed(rest[i], group_.part(far[i]).V);
-        for (std::size_t i = 0; i < far.size(); ++i) rest[i] -= product(part, group_.part(far[i]).V);
-        along += part;
+        V.push_back(&group_.part(t).V);
+        more.push_back(product(whitener, rows.with(t, tile(t).width()) + product(along_V, *V.back())));
     }
 
-    Eigen::MatrixXd proper = Eigen::MatrixXd::Zero(count, 2 * count);
-    for (Eigen::Index i = 0; i < count; ++i) proper(i, 2 * i) = 1;
-    for (Eigen::MatrixXd& part : rest) part = withTurnedRows(part);
-    CutRowsView left_over;
-    for (const Eigen::MatrixXd& part : rest) left_over.push_back(&part);
-    const OrthonormalRows orthonormal(proper, left_over, negligibleLength());
-    const Eigen::MatrixXd K = turningBasis(orthonormal.W(), negligibleLength());
-    const CutRows directions = orthonormal.times(K);
-    group_.extend(static_cast<int>(K.rows()));
-    for (std::size_t i = 0; i < far.size(); ++i) group_.part(far[i]).V.bottomRows(K.rows()) = directions[i];
-    Eigen::MatrixXd new_rows(count, group_.rank());
-    new_rows << along, productTransposed(orthonormal.W(), K);
+    // What of them lies along V, and new directions for the rest.
+    const BeyondBasis parts(V, more, waiting.rows(), negligibleLength());
+    const auto count = static_cast<int>(parts.weights.cols());
+    group_.extend(count);
+    for (std::size_t i = 0; i < far.size(); ++i)
+        group_.part(far[i]).V.bottomRows(count) = parts.directions[i];
+    Eigen::MatrixXd new_rows(waiting.rows(), group_.rank());
+    new_rows << parts.along, parts.weights;
     const Eigen::MatrixXd with_turned = withTurned(new_rows);
     group_.W.conservativeResize(q_ + with_turned.rows(), Eigen::NoChange);
     group_.W.bottomRows(with_turned.rows()) = with_turned;

@@ -50,6 +50,10 @@ CutRows transformed(const Eigen::MatrixXd& T, const CutRowsView& V) {
 /// Eigenvalues above this part of the largest have eigenvectors worth their name.
 constexpr double well_known = 1e-8;
 
+/// Of directions with V: taken out, it changes neither their length nor how orthogonal they are to one
+/// another beyond what orthonormal means here, half the digits.
+constexpr double small_overlap = 1e-5;
+
 /// What the Gram matrix of some rows says of their directions.
 struct Directions {
     Eigen::MatrixXd unit;     ///< unit times the rows is orthonormal: directions that are well known
@@ -172,6 +176,30 @@ CutRows OrthonormalRows::times(const Eigen::MatrixXd& K) const {
     const CutRows rest = transformed(K.rightCols(W_.cols() - many_.rows()), viewOf(few_));
     for (std::size_t t = 0; t < out.size(); ++t) out[t] += rest[t];
     return out;
+}
+
+BeyondBasis::BeyondBasis(const CutRowsView& V, const CutRows& rows, Eigen::Index count, double negligible)
+    : along(Eigen::MatrixXd::Zero(count, V.empty() ? 0 : V.front()->rows())), weights(count, 0) {
+    if (V.empty()) return;
+    weights = Eigen::MatrixXd::Zero(count, 2 * count);
+    for (Eigen::Index i = 0; i < count; ++i) weights(i, 2 * i) = 1;
+    for (const Eigen::MatrixXd& part : rows) directions.push_back(withTurnedRows(part));
+    // V is orthonormal to half the digits, so that much of what lies along V stays in rows it was taken out
+    // of; where little else is left of them, that is all there is. Scaled to length one, a direction shows
+    // it: it is taken out again, and of a direction that had much of it the little that is left goes, or is
+    // scaled and looked at once more.
+    for (bool unit = false;; unit = true) {
+        const Eigen::MatrixXd overlap = gram(viewOf(directions), V);
+        along += product(weights, overlap);
+        const Eigen::MatrixXd first = firstOfPairs(overlap);
+        for (std::size_t t = 0; t < V.size(); ++t)
+            directions[t] = withTurnedRows(firstOfPairs(directions[t]) - product(first, *V[t]));
+        if (unit && !(overlap.norm() > small_overlap)) return;
+        const OrthonormalRows orthonormal(weights, viewOf(directions), negligible);
+        const Eigen::MatrixXd K = turningBasis(orthonormal.W(), negligible);
+        directions = orthonormal.times(K);
+        weights = productTransposed(orthonormal.W(), K);
+    }
 }
 
 }  // namespace slamot

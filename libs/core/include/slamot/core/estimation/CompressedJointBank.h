@@ -10,27 +10,35 @@
 // Prediction, update, transport, mixing and new landmarks act on [a | beta] as on any joint state: beta's
 // rows are scalars in the classic core and 2-vectors that turn with the world in the invariant one.
 // Activation and commit move landmarks between the two.
+//
+// Between commits a step needs nothing of the map but the landmarks that come within reach, and those are
+// chosen and prepared a few metres ahead. So all that is done with the map is a job of a SerialWorker, on
+// another thread if there is one for it; who reads the map waits until its jobs are done.
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "slamot/core/estimation/ActiveSetPolicy.h"
 #include "slamot/core/estimation/BlockGaussian.h"
 #include "slamot/core/estimation/JointBank.h"
 #include "slamot/core/estimation/PassiveMap.h"
+#include "slamot/core/estimation/SerialWorker.h"
 #include "slamot/core/estimation/SquareRoot.h"
 
 namespace slamot {
 
 class CompressedJointBank : public JointBank {
   public:
+    /// `background`: the map is worked on by a thread of its own, with the same results to the bit.
     CompressedJointBank(const Vector3& robot, const Matrix3& covariance, Consistency consistency,
-                        int modes = 1, const ActiveSetParameters& policy = {});
+                        int modes = 1, const ActiveSetParameters& policy = {}, bool background = false);
     CompressedJointBank(const CompressedJointBank& other);
     CompressedJointBank& operator=(const CompressedJointBank&) = delete;
 
     using JointBank::augment;
     std::unique_ptr<JointBank> clone() const override { return std::make_unique<CompressedJointBank>(*this); }
     Consistency consistency() const override { return consistency_; }
-    int dimension() const override { return activeDimension() + 2 * map_.size(); }
+    int dimension() const override { return activeDimension() + 2 * away_count_; }
     BlockKind kind(BlockId block) const override;
     int modeCount() const override { return static_cast<int>(modes_.size()); }
     JointMode& mode(int index) override { return modes_.at(static_cast<std::size_t>(index)); }
@@ -45,12 +53,18 @@ class CompressedJointBank : public JointBank {
     void commit(const std::vector<BlockId>& landmarks, const ModeWeights& weights) override;
 
     bool active(BlockId block) const { return layout_.contains(block); }
-    int activeDimension() const { return layout_.dimension() - map_.baseDimension(); }
-    const PassiveMap& map() const { return map_; }
+    int activeDimension() const { return layout_.dimension() - base_dimension_; }
+    /// Waits for what is being done with it.
+    const PassiveMap& map() const {
+        worker_.wait();
+        return map_;
+    }
     /// Bytes of all modes and of what is put away, work space of the modes left out.
     std::size_t memory() const;
     std::int64_t commits() const { return commits_; }
     std::int64_t activations() const { return activations_; }
+    /// Of these, activations of what was measured before it was within reach: the step had to wait for it.
+    std::int64_t unforeseen() const { return unforeseen_; }
 
   private:
     class Mode : public JointMode {
@@ -71,6 +85,22 @@ class CompressedJointBank : public JointBank {
         BlockGaussian gaussian;
     };
 
+    /// What is to be activated next. The result is there when the job is done, and holds until the map
+    /// changes.
+    struct Plan {
+        SerialWorker::Ticket job = 0;
+        std::shared_ptr<PassiveMap::Taken> taken;
+    };
+
+    bool away(BlockId block) const {
+        return block >= 0 && block < static_cast<BlockId>(away_.size()) &&
+               away_[static_cast<std::size_t>(block)] != 0;
+    }
+    void setAway(BlockId landmark, bool away);
+    /// Chooses what to activate next.
+    void plan(const Mode& mode);
+    /// Prepares landmarks that are away, and waits for it.
+    std::shared_ptr<const PassiveMap::Taken> prepare(const std::vector<BlockId>& landmarks);
     /// Offsets of beta's coordinates, in the order of the base's rows.
     std::vector<int> baseCoordinates() const;
     void appendBase(int rows);
@@ -86,13 +116,18 @@ class CompressedJointBank : public JointBank {
     Consistency consistency_;
     BlockLayout layout_;         ///< of [a | beta]
     std::vector<BlockId> base_;  ///< beta's blocks, in the order of the base's rows
+    int base_dimension_ = 0;
     BlockId next_id_ = 0;
     std::vector<Mode> modes_;
     std::vector<BlockGaussian> mixed_;  ///< where mixing works
-    PassiveMap map_;
+    std::vector<char> away_;            ///< by block: what is in the map once all jobs are done
+    int away_count_ = 0;
+    PassiveMap map_;  ///< the worker's
     ActiveSetPolicy policy_;
-    std::int64_t commits_ = 0, activations_ = 0;
+    std::optional<Plan> plan_;
+    std::int64_t commits_ = 0, activations_ = 0, unforeseen_ = 0;
     std::vector<BlockId> leaving_, coming_;  ///< work space
+    SerialWorker worker_;                    ///< the first to go: its jobs use what is above
 };
 
 }  // namespace slamot

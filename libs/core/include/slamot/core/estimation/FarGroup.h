@@ -9,9 +9,8 @@
 namespace slamot {
 
 /// The far tiles of a PassiveMap: B_t = W V_t for a far tile t, V having rows in pairs, the second turned by
-/// a quarter turn. They are orthonormal when the group is made, to half the digits, and less so when
-/// landmarks have left; what W V says is exact in any case. What commits have added to the covariances waits
-/// here:
+/// a quarter turn. They are orthonormal to half the digits, until landmarks leave; what W V says is exact in
+/// any case. What commits have added to the covariances waits here:
 ///
 ///   P_st += V_s^t zeta V_t for far s and t,   P_st += C_s V_t for near s.
 struct FarGroup {
@@ -26,6 +25,7 @@ struct FarGroup {
     Eigen::MatrixXd W;        ///< rows of the base x rank
     Eigen::MatrixXd zeta;     ///< rank x rank
     Eigen::VectorXd shift;    ///< b0_t += V_t^t shift waits as well
+    bool cut = false;         ///< landmarks of far tiles have left
 
     int rank() const { return static_cast<int>(W.cols()); }
     const Part& part(int tile) const { return parts[static_cast<std::size_t>(tile)]; }
@@ -34,7 +34,8 @@ struct FarGroup {
     /// What waits for P of coordinates [first, first + count) of tile s with all of far tiles t is left()
     /// V_t.
     Eigen::MatrixXd left(int s, int first, int count) const;
-    /// More directions: rows of V for every far tile, nothing yet along them.
+    /// More directions, orthogonal to those that are here: rows of V for every far tile, to be filled in;
+    /// nothing yet along them.
     void extend(int directions);
     void dropColumns(int tile, const std::vector<int>& kept);
 

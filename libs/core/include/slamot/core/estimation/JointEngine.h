@@ -15,6 +15,8 @@ struct JointEngine {
     };
     Kind kind = Kind::compressed;
     ActiveSetParameters active_set;
+    /// compressed: what is put away is worked on by a thread of its own; the numbers are the same.
+    bool background = false;
 };
 
 /// A bank of modes that are all at `robot`.

@@ -44,7 +44,7 @@ class PassiveMap {
     void forNearPositions(const Eigen::Ref<const Eigen::VectorXd>& eta, const Action& action) const {
         for (const Tile& t : tiles_) {
             if (t.landmarks.empty() || t.far) continue;
-            const Eigen::VectorXd position = t.mean + t.X.transpose() * eta;
+            const Eigen::VectorXd position = t.mean + t.X.topRows(q_).transpose() * eta;
             for (std::size_t i = 0; i < t.landmarks.size(); ++i)
                 action(t.landmarks[i], Vector2(position.segment<2>(2 * static_cast<Eigen::Index>(i))));
         }
@@ -52,16 +52,21 @@ class PassiveMap {
 
     /// Landmarks on their way to the active state, two coordinates each.
     struct Taken {
+        std::vector<BlockId> landmarks;
         Eigen::VectorXd mean;        ///< b0
         Eigen::MatrixXd base;        ///< B_c, of the base before
         Eigen::MatrixXd covariance;  ///< P_cc0
         Eigen::MatrixXd root;  ///< (P_cc0 - U_c^t U_c)^1/2: their formal covariance with the new rows proper
-        int new_rows = 0;      ///< by which the base has grown, at its end
+        int new_rows = 0;      ///< by which the base grows, at its end
     };
-    /// Landmarks that differ from one another. What the rows proper, U, of the base do not say of their
-    /// covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows at the end of the
-    /// base, whitened; where rows come in pairs, each is followed by its turned one.
-    Taken take(const std::vector<BlockId>& landmarks);
+    /// Landmarks that differ from one another, and what the base does not know of them: what its rows proper,
+    /// U, do not say of their covariances P_cr0 with the landmarks that stay, P_cr0 - U_c^t U_r, becomes rows
+    /// at the end of the base, whitened; where rows come in pairs, each is followed by its turned one. The
+    /// base grows by these rows in `take`; until then nobody sees them, and every other change but a grouping
+    /// forgets them.
+    Taken prepare(const std::vector<BlockId>& landmarks);
+    /// What was prepared last leaves.
+    void take(const Taken& taken);
 
     /// Forgets a landmark.
     void remove(BlockId landmark);
@@ -83,7 +88,7 @@ class PassiveMap {
     void commit(const Commit& commit);
 
     /// Where the robot is and how far its sensors reach [m], for the choice of near tiles. Groups anew when
-    /// the robot has moved far enough; in a step that is `busy` with a commit or an activation only when it
+    /// the robot has moved far enough; at a moment that is `busy` only when it
     /// cannot wait.
     void follow(const Vector2& robot, double reach, bool busy);
 
@@ -129,11 +134,12 @@ class PassiveMap {
     static std::vector<int> coordinatesOf(const std::vector<int>& landmarks);
     /// Shorter rows of B, over all landmarks, say nothing.
     double negligibleLength() const;
-    /// New rows of the base for the landmarks taken, P_c,t0 - known^t U_t whitened.
+    /// New rows of the base for landmarks that are to be taken, P_c,t0 - known^t U_t whitened.
     void addRows(const std::vector<Address>& taken, const Eigen::MatrixXd& known,
                  const Eigen::MatrixXd& whitener);
     void addFarRows(const PassiveCovariance::Rows& rows, const Eigen::MatrixXd& waiting,
                     const Eigen::MatrixXd& known, const Eigen::MatrixXd& whitener);
+    void forgetPrepared();
     void drop(int t, const std::vector<int>& gone);
     int tileFor(const Vector2& position);
     /// What a commit adds to P_bb0.
@@ -145,6 +151,7 @@ class PassiveMap {
 
     bool turning_;
     int q_ = 0;
+    int prepared_rows_ = 0;  ///< rows behind the q_ of the base
     std::vector<Tile> tiles_;
     std::vector<Address> addresses_;  ///< by landmark
     int size_ = 0;

@@ -45,4 +45,16 @@ class OrthonormalRows {
     CutRows few_;
 };
 
+/// rows = along V + weights directions, for rows whose turned ones matter as much, and V orthonormal, closed
+/// under the quarter turn: the directions are so too, and orthogonal to V, however little of the rows they
+/// make up.
+struct BeyondBasis {
+    Eigen::MatrixXd along, weights;
+    CutRows directions;
+
+    /// `count` rows, cut as V is, perhaps into no part at all. What is below `negligible` in all of them
+    /// goes.
+    BeyondBasis(const CutRowsView& V, const CutRows& rows, Eigen::Index count, double negligible);
+};
+
 }  // namespace slamot

@@ -35,7 +35,7 @@ struct Start {
     PoseGaussian pose;
     /// Key of all its random draws.
     std::uint64_t seed = 1;
-    /// Threads it may use inside a call. Results must not depend on it.
+    /// Threads it may use, between calls as well. Results must not depend on it.
     int threads = 1;
 };
 
