@@ -21,7 +21,8 @@ inline std::string summaryJson(const std::string& log = "my.rawlog", const std::
            R"(", "truth": null, "estimator": "my_estimator", "detector": "none", "seed": )" + seed +
            R"(, "config": "[my_estimator]\nkey = 1\n[run]\nestimator = my_estimator\nseed = )" + seed +
            R"(\n", "counts": {"detections": 3, "landmarks": 1, "tracks_at_end": 0}, "drops": [{"sensor": "<b>lidar", )"
-           R"("reason": "no-detector", "count": 7}], "sensors": [], "warnings": [], "estimate_sha256": "abc", )"
+           R"("reason": "no-detector", "count": 7}], "sensors": [], "warnings": [], "estimate_sha256": "abc)" +
+           seed + R"(", )"
            R"("time": {"wall_s": 1.5, "step_ms": {"mean": 0.25}}, "peak_memory_mb": 80, "metrics": )" +
            metrics + "}";
 }

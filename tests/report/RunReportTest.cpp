@@ -77,10 +77,12 @@ TEST_F(RunReport, nisLeavesOutWhatHadNoPrediction) {
     const Figure figure = figureOf(runPage(run()), "nis");
     ASSERT_EQ(figure.panels.size(), 1u);
     EXPECT_EQ(std::get<Points>(figure.panels[0].layers.at(0)).points, (Points2{{1, 2.5}}));
-    EXPECT_NEAR(std::get<Rule>(figure.panels[0].layers.at(1)).value, -2 * std::log(0.975), 1e-9);  // 2 degrees
+    EXPECT_NEAR(std::get<Rule>(figure.panels[0].layers.at(1)).value, -2 * std::log(0.975),
+                1e-9);  // 2 degrees
     EXPECT_NEAR(std::get<Rule>(figure.panels[0].layers.at(2)).value, -2 * std::log(0.025), 1e-9);
     EXPECT_EQ(std::get<Points>(figure.panels[0].layers.at(3)).points, (Points2{{2, 20}}));
-    EXPECT_EQ(figure.panels[0].title, "sensor 'eye', landmarks: 50.0 % of 2 within 0.051 to 7.4, expected 95 %");
+    EXPECT_EQ(figure.panels[0].title,
+              "sensor 'eye', landmarks: 50.0 % of 2 within 0.051 to 7.4, expected 95 %");
 }
 
 TEST_F(RunReport, landmarkErrorsAreThoseKnownAtTheTime) {

@@ -5,8 +5,10 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/COpenGLViewport.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <Eigen/LU>
 #include <cstring>
 
 #include "run/Spy.h"
@@ -79,6 +81,21 @@ TEST_F(MrptSinksTest, TheSceneLoadsAgain) {
     const auto viewport = scene.getViewport();
     ASSERT_TRUE(viewport);
     EXPECT_EQ(std::distance(viewport->begin(), viewport->end()), 7);
+    // Ellipses lie at three standard deviations: (p - m)^t P^-1 (p - m) = 9.
+    int outlines = 0;
+    Matrix2 P;
+    P << 0.25, 0.125, 0.125, 0.5;
+    for (const auto& object : *viewport) {
+        const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(object);
+        if (!lines || lines->getLineCount() != 30) continue;
+        const Vector2 mean = outlines == 0 ? Vector2(1.5, -2.5) : Vector2(3, 4);
+        if (++outlines > 2) continue;  // the robot's
+        for (const auto& line : *lines) {
+            const Vector2 d = Vector2(line.point1.x, line.point1.y) - mean;
+            EXPECT_NEAR(d.dot(P.inverse() * d), 9, 1e-4);  // MRPT keeps single precision in files
+        }
+    }
+    EXPECT_EQ(outlines, 3);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1)
         << "nothing is left beside it";
 }

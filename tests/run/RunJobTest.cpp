@@ -326,8 +326,11 @@ TEST_F(RunJobTest, AnEstimatorThatFailsLeavesWhatCameBeforeWithStatusFailed) {
     log.push_back(odometry(8.2, {1e200, 0, 0}));  // its variance, about (1e200)^2, is no double any more
     log.push_back(odometry(8.4, {1e200, 0, 0}));
     writeLog(path("a.rawlog"), log);
-    const auto error = messageOf<EstimatorError>([&] { runLog("a.rawlog", ""); });
+    const auto result = runLog("a.rawlog", "");
+    ASSERT_TRUE(result.failure);
+    const auto error = messageOf<EstimatorError>([&] { std::rethrow_exception(result.failure); });
     EXPECT_THAT(error, HasSubstr("ekf_slamot"));
+    EXPECT_TRUE(result.writes_report);
     const auto summary = nlohmann::json::parse(textOf(path("out/summary.json")));
     EXPECT_EQ(summary["status"], "failed");
     EXPECT_EQ(summary["end_message"], error);

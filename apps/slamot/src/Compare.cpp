@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "Command.h"
+#include "SessionOptions.h"
 #include "slamot/report/Comparison.h"
 #include "slamot/report/FigureWriter.h"
 
@@ -36,8 +37,11 @@ void addCompare(CLI::App& app, Action& chosen) {
     command->add_option("runs", options->runs, "Output folders of runs")->required();
     command->add_option("--truth", options->truth,
                         "Truth folder for all runs, metrics included; default: each run's; none: no truth");
-    command->add_option("-o,--out", options->out, "Page to write")->capture_default_str();
-    command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot");
+    command->add_option("-o,--out", options->out, "Page to write")
+        ->check(notEmpty())
+        ->capture_default_str();
+    command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot")
+        ->check(notEmpty());
     command->callback(
         [&chosen, options] { chosen = [options](const Verbosity& v) { return compareJob(*options, v); }; });
 }

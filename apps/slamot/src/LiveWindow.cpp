@@ -100,7 +100,7 @@ class HeldBack {
 struct LiveWindow::Impl {
     struct Track {
         mrpt::opengl::CSetOfLines::Ptr way;
-        mrpt::opengl::CEllipsoid2D::Ptr ellipse;
+        mrpt::opengl::CSetOfLines::Ptr ellipse;
     };
 
     const std::atomic<bool>& stop;
@@ -108,11 +108,11 @@ struct LiveWindow::Impl {
     std::unique_ptr<mrpt::gui::CDisplayWindow3D> window;  ///< null once it was closed
     mrpt::opengl::CSetOfObjects::Ptr world = mrpt::opengl::CSetOfObjects::Create();
     mrpt::opengl::CSetOfTriangles::Ptr robot = run::makeRobotArrow();
-    mrpt::opengl::CEllipsoid2D::Ptr robot_ellipse = makeEllipse(colour::robot);
+    mrpt::opengl::CSetOfLines::Ptr robot_ellipse = makeEllipse(colour::robot);
     mrpt::opengl::CSetOfLines::Ptr robot_way = makeLines(colour::robot, 2.5f),
                                    sight = makeLines(colour::sight, 1.0f);
     std::map<TrackId, Track> tracks;
-    std::map<LandmarkId, mrpt::opengl::CEllipsoid2D::Ptr> landmarks;
+    std::map<LandmarkId, mrpt::opengl::CSetOfLines::Ptr> landmarks;
     std::map<LandmarkId, LandmarkEstimate> changed;  ///< since the last frame
     std::size_t speed = 3;
     bool paused = false, single_step = false, follow = true, was_placed = false;

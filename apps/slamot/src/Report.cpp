@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "Command.h"
+#include "SessionOptions.h"
 #include "slamot/report/FigureWriter.h"
 #include "slamot/report/RunReport.h"
 
@@ -36,8 +37,10 @@ void addReport(CLI::App& app, Action& chosen) {
     command->add_option("run", options->run, "Output folder of a run")->required();
     command->add_option("--truth", options->truth,
                         "Truth folder, for metrics too; default: the run's; none: no truth");
-    command->add_option("-o,--out", options->out, "Page to write; default: report.html in the run's folder");
-    command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot");
+    command->add_option("-o,--out", options->out, "Page to write; default: report.html in the run's folder")
+        ->check(notEmpty());
+    command->add_option("--pictures", options->pictures, "Folder for an SVG and a PNG of each plot")
+        ->check(notEmpty());
     command->callback(
         [&chosen, options] { chosen = [options](const Verbosity& v) { return reportJob(*options, v); }; });
 }

@@ -120,6 +120,7 @@ int runJob(const Options& options, const Verbosity& verbosity) {
     for (const std::string& warning : result.warnings) fmt::print(stderr, "slamot: warning: {}\n", warning);
     if (result.writes_figure) writeOverview(result, request.truth, options);
     if (result.writes_report) writeReport(options);
+    if (result.failure) std::rethrow_exception(result.failure);
     if (!verbosity.quiet) printSummary(result, options, verbosity);
     if (window) window->waitUntilClosed();
     switch (result.status) {

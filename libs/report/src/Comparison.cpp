@@ -19,8 +19,10 @@ bool isComplete(const RunFolder& run) {
 
 GroupValue valueOf(const MetricRow& row, const RunGroup& group) {
     std::vector<double> values;
+    const bool some_are_complete = completeRuns(group) > 0;
     for (const RunFolder& run : group.runs) {
-        if (const auto value = valueOf(row, run)) {
+        const auto value = valueOf(row, run);
+        if (value && (isComplete(run) || !some_are_complete)) {
             values.push_back(*value);
         }
     }
@@ -96,7 +98,8 @@ std::vector<std::string> comparisonNotes(const std::vector<RunGroup>& groups) {
     for (const RunGroup& group : groups) {
         for (const RunFolder& run : group.runs) {
             if (run.lost_truth) {
-                notes.push_back(fmt::format("{}: plots are without truth: {}.", run.folder, run.why_no_truth));
+                notes.push_back(
+                    fmt::format("{}: plots are without truth: {}.", run.folder, run.why_no_truth));
             }
         }
     }

@@ -24,13 +24,6 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         status.cells.push_back({statusOf(group)});
     }
     table.rows.push_back(std::move(status));
-    for (const ComparedSetting& setting : compareSettings(groups)) {
-        TableRow row{{{fmt::format("[{}] {}", setting.section, setting.key)}}};
-        for (const std::string& value : setting.values) {
-            row.cells.push_back({value.empty() ? "–" : value});
-        }
-        table.rows.push_back(std::move(row));
-    }
     std::string heading;
     for (const ComparedMetric& metric : compareMetrics(groups)) {
         if (metric.group != heading) {
@@ -57,12 +50,32 @@ PageSection tableSection(const std::vector<RunGroup>& groups) {
         "(Student's t). Where "
         "intervals overlap the difference may be chance. Runs that did not come to the end of "
         "their log, or of which one lacks the value, are never the best. Times of single runs are not "
-        "compared. Settings are those that differ.",
+        "compared.",
         {table}};
     for (const std::string& note : comparisonNotes(groups)) {
         section.blocks.push_back(Paragraph{note});
     }
     return section;
+}
+
+PageTable settingTable(const std::vector<RunGroup>& groups) {
+    PageTable table{"Settings that differ", {{"", false}}, {}};
+    for (const RunGroup& group : groups) {
+        table.columns.push_back({group.name});
+    }
+    std::string section;
+    for (const ComparedSetting& setting : compareSettings(groups)) {
+        if (setting.section != section) {
+            section = setting.section;
+            table.rows.push_back({{{fmt::format("[{}]", section)}}, true});
+        }
+        TableRow row{{{setting.key}}};
+        for (const std::string& value : setting.values) {
+            row.cells.push_back({value.empty() ? "–" : value});
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
 }
 
 /// Every run of every group as a line; the first of a group names it. Those drawn first are wider, so that
@@ -241,6 +254,10 @@ Page comparisonPage(const std::vector<RunGroup>& groups) {
         }
     }
     PageSection configurations{"runs", "What was compared", "", {table}};
+    if (PageTable settings = settingTable(groups); !settings.rows.empty()) {
+        configurations.about = "A setting that was not given (–) has its default; `slamot config` prints it.";
+        configurations.blocks.push_back(std::move(settings));
+    }
     for (const RunGroup& group : groups) {
         configurations.blocks.push_back(
             Verbatim{group.runs.front().text("config"), "Settings of " + group.name, true});

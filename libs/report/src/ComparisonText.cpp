@@ -62,9 +62,9 @@ std::string settingText(const Block& block, const std::vector<ComparedSetting>& 
         const auto value = [&](std::size_t g) {
             return settings[i].values[g].empty() ? "-" : settings[i].values[g];
         };
-        text += block.line(firstCodePoints("    " + settings[i].key, name_width - 1, ".."), [&](std::size_t g) {
-            return firstCodePoints(value(g), block.width - 2, "..") + " ";
-        });
+        text +=
+            block.line(firstCodePoints("    " + settings[i].key, name_width - 1, ".."),
+                       [&](std::size_t g) { return firstCodePoints(value(g), block.width - 2, "..") + " "; });
     }
     return settings.size() <= most_settings
                ? text

@@ -7,7 +7,7 @@
 #include "PixelPath.h"
 #include "Text.h"
 #include "slamot/report/Decimation.h"
-#include "slamot/report/Ellipse.h"
+#include "slamot/core/data/Ellipse.h"
 
 namespace slamot::report {
 namespace {
@@ -141,7 +141,7 @@ LayerSpec specOf(const Ellipses& ellipses, const std::string& name, const PanelV
         if (radius >= least_radius && nearPanel(g.mean, view, radius)) {
             // A chord of n strays from its arc by r (pi/n)^2 / 2; this keeps it below a sixth of a pixel.
             const int count = std::clamp(static_cast<int>(std::ceil(5.5 * std::sqrt(radius))), 12, 120);
-            outlines.push_back(ellipseOutline(g, ellipses.k, count));
+            outlines.push_back(ellipseOutline(g.mean, g.covariance, ellipses.k, count));
         }
     }
     return {pieceRows(outlines),

@@ -184,7 +184,7 @@ RunFolder readRunFolder(const std::string& folder, const std::string& truth_fold
     run.log_file = placeOf(run, run.text("log"));
     run.evaluation = evaluationOf(run.summary, folder);
     run.run = eval::readRun(folder);
-    run.map_known = there("landmarks.csv");
+    run.map_known = there("landmarks.csv") && !run.failed();
     if (there("steps.csv")) {
         run.steps = readSteps(folder + "/steps.csv");
     }

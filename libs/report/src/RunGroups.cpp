@@ -63,17 +63,18 @@ std::string commonName(const std::vector<RunFolder>& runs) {
 }  // namespace
 
 std::vector<std::string> dropRepeats(std::vector<RunFolder>& runs) {
-    std::map<std::vector<std::string>, std::string> first;
+    std::map<std::pair<std::string, std::string>, std::string> first;
     std::vector<RunFolder> kept;
     std::vector<std::string> notes;
     for (RunFolder& run : runs) {
-        const auto [found, is_new] = first.try_emplace(
-            {run.text("config"), run.digits("seed"), run.log_file, run.text("estimate_sha256")}, run.folder);
-        if (is_new) {
+        const std::string hash = run.text("estimate_sha256");
+        const auto [found, is_new] = first.try_emplace({settingsOf(run), hash}, run.folder);
+        if (is_new || hash.empty()) {
             kept.push_back(std::move(run));
         } else {
-            notes.push_back(fmt::format("{} repeats {} (settings, seeds, log and estimates) and is left out",
-                                        run.folder, found->second));
+            notes.push_back(
+                fmt::format("{} repeats {} (settings but for seeds, and estimates) and is left out",
+                            run.folder, found->second));
         }
     }
     runs = std::move(kept);
@@ -93,6 +94,9 @@ std::vector<RunGroup> groupRuns(std::vector<RunFolder> runs) {
     std::map<std::string, int> used;
     for (RunGroup& group : groups) {
         group.name = group.runs.size() == 1 ? folderName(group.runs.front()) : commonName(group.runs);
+        if (used.count(group.name) > 0) {
+            group.name += " " + group.runs.front().text("estimator");
+        }
         if (const int times = ++used[group.name]; times > 1) {
             group.name += fmt::format(" ({})", times);
         }

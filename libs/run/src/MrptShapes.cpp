@@ -1,5 +1,7 @@
 #include "slamot/run/MrptShapes.h"
 
+#include "slamot/core/data/Ellipse.h"
+
 namespace slamot::run {
 
 mrpt::opengl::CSetOfTriangles::Ptr makeRobotArrow() {
@@ -15,20 +17,19 @@ mrpt::opengl::CSetOfTriangles::Ptr makeRobotArrow() {
     return arrow;
 }
 
-mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const mrpt::img::TColor& colour) {
-    auto ellipse = mrpt::opengl::CEllipsoid2D::Create();
-    ellipse->setQuantiles(3.0f);
-    ellipse->set2DsegmentsCount(30);
+mrpt::opengl::CSetOfLines::Ptr makeEllipse(const mrpt::img::TColor& colour) {
+    auto ellipse = mrpt::opengl::CSetOfLines::Create();
     ellipse->setColor_u8(colour);
     return ellipse;
 }
 
-void placeEllipse(mrpt::opengl::CEllipsoid2D& ellipse, const Vector2& mean, const Matrix2& covariance) {
-    mrpt::math::CMatrixDouble22 c;
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) c(i, j) = covariance(i, j);
-    ellipse.setCovMatrix(c);
-    ellipse.setLocation(mean.x(), mean.y(), 0);
+void placeEllipse(mrpt::opengl::CSetOfLines& ellipse, const Vector2& mean, const Matrix2& covariance) {
+    constexpr double deviations = 3;
+    constexpr int corners = 30;
+    const std::vector<Vector2> outline = ellipseOutline(mean, covariance, deviations, corners);
+    ellipse.clear();
+    for (std::size_t i = 1; i < outline.size(); ++i)
+        ellipse.appendLine(outline[i - 1].x(), outline[i - 1].y(), 0.0, outline[i].x(), outline[i].y(), 0.0);
 }
 
 }  // namespace slamot::run

@@ -25,7 +25,6 @@ JobResult runLog(const RunRequest& request, const PluginRegistry& registry) {
     result.writes_report = assembled.config.output.report && result.started;
     if (result.metrics) result.metrics_table = eval::summaryTable(*result.metrics);
     folder.writeSummary(result.summary);
-    if (result.failure) std::rethrow_exception(result.failure);
     return result;
 }
 

@@ -13,7 +13,7 @@
 namespace slamot::run {
 namespace {
 
-mrpt::opengl::CEllipsoid2D::Ptr ellipse(const Vector2& mean, const Matrix2& covariance,
+mrpt::opengl::CSetOfLines::Ptr ellipse(const Vector2& mean, const Matrix2& covariance,
                                         const mrpt::img::TColor& colour) {
     auto out = makeEllipse(colour);
     placeEllipse(*out, mean, covariance);

@@ -1,6 +1,8 @@
 // What of the log was not used, every setting, and how to run it again.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "ConfigLines.h"
 #include "sections/Sections.h"
 #include "slamot/report/ShellWord.h"
@@ -31,10 +33,15 @@ std::vector<Block> drops(const RunFolder& run) {
     return {table};
 }
 
+std::string nameOf(const std::string& folder) {
+    const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+    return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
+}
+
 std::vector<Block> configuration(const RunFolder& run) {
     const std::string truth = run.text("truth");
-    std::string command = fmt::format("slamot run run.ini {} -o out --truth {}", shellWord(run.text("log")),
-                                      truth.empty() ? "none" : shellWord(truth));
+    std::string command = fmt::format("slamot run run.ini {} -o {} --truth {}", shellWord(run.text("log")),
+                                      shellWord(nameOf(run.folder) + "_again"), truth.empty() ? "none" : shellWord(truth));
     if (const std::string seed = run.digits("seed");
         !seed.empty() && !configHolds(run.text("config"), "run", "seed")) {
         command += " --seed " + seed;
@@ -47,7 +54,10 @@ std::vector<Block> configuration(const RunFolder& run) {
     return {Paragraph{start}, Verbatim{command, "", true},
             Verbatim{run.text("config"),
                      "Settings that were given; `slamot config` prints all with their defaults", true},
-            Paragraph{"The estimates are the same where estimate_sha256 in summary.json is"},
+            Paragraph{run.text("status") == "stopped"
+                          ? "This run was stopped, and the command runs the whole log: estimate_sha256, of all "
+                            "estimates, will be another than"
+                          : "The estimates are the same where estimate_sha256 in summary.json is"},
             Verbatim{run.text("estimate_sha256"), "", false}};
 }
 

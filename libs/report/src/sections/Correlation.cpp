@@ -11,8 +11,9 @@ namespace {
 constexpr int robot_dimensions = 3, track_dimensions = 6;
 
 std::string absent(const RunFolder& run) {
-    return run.correlation && run.correlation->cells.size() > 0
-               ? ""
+    return run.correlation && run.correlation->cells.size() > 0 ? ""
+           : run.failed()
+               ? "a run that failed leaves no covariance of its end"
                : "correlation.bin is not there ([output] correlation, or an estimator without joint "
                  "covariance)";
 }
@@ -65,7 +66,9 @@ std::vector<Block> blocks(const RunFolder& run) {
     figure.width = 640;
     figure.panels = {panel};
     const std::string caption = fmt::format(
-        "{} components: the robot's 3, 6 of each track, 2 of each landmark in the order of first sight.{}",
+        "{} components: the robot's 3, 6 of each track, 2 of each landmark in the order of first sight; "
+        "lines "
+        "stand between these parts.{}",
         correlation.dimension,
         correlation.cells.rows() < correlation.dimension ? " Each cell is the strongest of those it covers."
                                                          : "");

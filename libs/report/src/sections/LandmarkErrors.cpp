@@ -160,8 +160,10 @@ std::string captionOf(const RunFolder& run, const std::map<LandmarkId, TrueLandm
     std::string caption =
         quantiles.at_end == 0
             ? "No landmark with a truth is in the map at the end."
-            : fmt::format("{} true landmarks are in the map at the end; their median error is {} m.",
-                          quantiles.at_end, shortNumber(quantiles.median.points.back().y()));
+            : fmt::format(
+                  "{} true landmarks are in the map at the end; the median error of their estimates when "
+                  "last seen is {} m.",
+                  quantiles.at_end, shortNumber(quantiles.median.points.back().y()));
     if (std::any_of(truths.begin(), truths.end(), [](const auto& t) { return t.second.by_place; })) {
         caption += fmt::format(
             " Landmarks without a source id are compared with the nearest true one within {} m of "

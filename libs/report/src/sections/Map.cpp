@@ -19,7 +19,11 @@ std::vector<Block> blocks(const RunFolder& run) {
     const std::string alt =
         fmt::format("Map of the run: the robot's way, {} landmarks with 3-sigma ellipses{}.",
                     run.run.landmarks.size(), run.truth ? ", and the true ways and landmarks" : "");
-    return {PageFigure{"map", alt, figure, run.truth ? whereTruthIsDrawn(*run.truth) : ""}};
+    std::string caption = run.truth ? whereTruthIsDrawn(*run.truth) : "";
+    if (run.failed()) {
+        caption += " A run that failed leaves no final map; the replay has landmarks as they were last seen.";
+    }
+    return {PageFigure{"map", alt, figure, caption}};
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ void addMeans(Panel& panel, const std::vector<std::vector<double>>& values, cons
 /// Of very many innovations the middle as an area, and only the outermost as points.
 void addMany(Panel& panel, const std::vector<std::vector<double>>& values, const Windows& windows,
              double probability, Points used) {
-    Band middle{fmt::format("the middle {:.3g} % of the innovations", 100 * probability), {}, colour::sky,
-                0.35};
+    Band middle{
+        fmt::format("the middle {:.3g} % of the innovations", 100 * probability), {}, colour::sky, 0.35};
     std::vector<double> low(windows.count()), high(windows.count());
     const double tail = (1 - probability) / 2;
     for (std::size_t w = 0; w < windows.count(); ++w) {
@@ -92,13 +92,14 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     std::vector<std::vector<double>> values(windows.count());
     Points used{"innovations used", {}, colour::sky, Symbol::dot, 3, 0.8};
     Points rejected{"rejected or down-weighted", {}, colour::vermillion, Symbol::times, 5, 0.8};
-    double inside = 0;
+    double inside = 0, below = 0;
     const eval::Band single = eval::chiSquareBand(probability, degrees);
     for (const eval::InnovationRow* row : rows) {
         const double nis = row->innovation.nis;
         const bool ordinary = row->innovation.outcome == Outcome::updated;
         (ordinary ? used : rejected).points.emplace_back(run.seconds(row->stamp), nis);
         inside += single.contains(nis);
+        below += nis < lowest_shown;
         values[windows.of(row->stamp)].push_back(nis);
     }
     Panel panel;
@@ -110,6 +111,8 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     panel.y.label = "NIS";
     panel.y.logarithmic = true;
     panel.y.min = lowest_shown;
+    panel.note = fmt::format("{:.1f} % lie below the axis, expected 0.5 %.",
+                             100 * below / static_cast<double>(rows.size()));
     panel.height = 200;
     if (used.points.size() > many) {
         addMany(panel, values, windows, probability, std::move(used));
@@ -161,8 +164,8 @@ const ReportSection nis_section{
     "nis", "NIS",
     "Do the innovations fit their covariances? The one test of consistency that needs no truth. Each "
     "innovation should be of chi-square law "
-    "with two degrees of freedom (mean 2); the black line is the mean over a window of time, the "
-    "green band where it should lie. The axis begins at 0.01; 0.5 % of innovations should lie below.",
+    "with two degrees of freedom (mean 2); the thick line is the mean over a window of time, the "
+    "green band where it should lie.",
     absent, blocks};
 
 }  // namespace slamot::report

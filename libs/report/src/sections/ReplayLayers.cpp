@@ -105,8 +105,9 @@ Keys truthKeys(const ReplayScene& scene) {
     return keys;
 }
 
-Keys sightKeys(const ReplayScene&) {
-    return {{Symbol::line, "seen at this step", colour::sky}};
+Keys sightKeys(const ReplayScene& scene) {
+    const bool any = !scene.run.sights.empty() || !scene.run.run.innovations.empty();
+    return any ? Keys{{Symbol::line, "seen at this step", colour::sky}} : Keys();
 }
 
 Keys landmarkKeys(const ReplayScene& scene) {

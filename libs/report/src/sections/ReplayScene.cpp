@@ -7,6 +7,7 @@
 #include <set>
 
 #include "TrackStyles.h"
+#include "TrueOrigin.h"
 #include "sections/ReplayColumns.h"
 
 namespace slamot::report {
@@ -62,6 +63,9 @@ void ReplayScene::findView() {
     std::vector<MapObject> objects;
     for (const eval::RobotRow& row : run.run.trajectory) {
         ways.push_back(row.robot.mean.position());
+    }
+    for (const eval::PosePair& pair : run.pairs) {
+        ways.push_back(trueOrigin(pair.truth.position(), run.truth->point, pair.estimate.mean.theta));
     }
     for (const auto& [stamp, tracks] : run.run.tracks) {
         for (const TrackEstimate& track : tracks) {

@@ -14,8 +14,8 @@ struct RunGroup {
     std::vector<RunFolder> runs;
 };
 
-/// Takes out runs that repeat one before them: the same settings, seeds, log and estimates, which say nothing
-/// new. Gives a sentence for each.
+/// Takes out runs that repeat one before them, with the same settings but for seeds and the same estimates: a
+/// seed that nothing was drawn with, or a copy of the log. They say nothing new. Gives a sentence for each.
 std::vector<std::string> dropRepeats(std::vector<RunFolder>& runs);
 
 /// Groups in the order of their first run. A single run is called by its folder, several by what their
@@ -36,9 +36,9 @@ std::vector<ComparedSetting> compareSettings(const std::vector<RunGroup>& groups
 std::vector<std::string> comparisonNotes(const std::vector<RunGroup>& groups);
 
 /// A metric of a group: the mean over its runs that have it, and half the width of its 95 % interval
-/// (Student's t; NaN for a single run).
+/// (Student's t; NaN for a single run). Runs that broke off have none where others of the group are complete.
 struct GroupValue {
-    std::size_t count = 0;  ///< runs that have it
+    std::size_t count = 0;  ///< runs that count
     std::size_t of = 0;     ///< runs there are
     double mean = 0, half_width = 0;
     bool contests = false;  ///< the group can be the best: complete runs of the same logs, a value of each

@@ -42,7 +42,7 @@ struct RunFolder {
     std::string log_file;  ///< where the log is; what the run called it where it is gone
     eval::EvaluationOptions evaluation;  ///< how the run was evaluated, or would be
     eval::RunRecord run;
-    bool map_known = false;  ///< landmarks.csv is there, so that what is not in it has left the map
+    bool map_known = false;  ///< landmarks.csv is the final map: what is not in it has left
     std::vector<LandmarkSight> sights;
     std::vector<StepRow> steps;
     std::optional<CorrelationCells> correlation;
@@ -54,6 +54,8 @@ struct RunFolder {
     /// The robot's poses with their truth; none without truth.
     std::vector<eval::PosePair> pairs;
 
+    /// The estimator came to an impossible state: there is no final map.
+    bool failed() const { return text("status") == "failed"; }
     /// Since the start of the run.
     double seconds(Stamp stamp) const;
     double duration() const;

@@ -1,7 +1,7 @@
 #pragma once
 // What scene.3Dscene and the live window draw alike.
 #include <mrpt/img/TColor.h>
-#include <mrpt/opengl/CEllipsoid2D.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <array>
@@ -21,8 +21,9 @@ inline const mrpt::img::TColorf background(0.96f, 0.96f, 0.96f);
 /// The robot's mark, a metre long, its heading along x.
 mrpt::opengl::CSetOfTriangles::Ptr makeRobotArrow();
 
-/// At three standard deviations; still without a place.
-mrpt::opengl::CEllipsoid2D::Ptr makeEllipse(const mrpt::img::TColor& colour);
-void placeEllipse(mrpt::opengl::CEllipsoid2D& ellipse, const Vector2& mean, const Matrix2& covariance);
+/// Outlines at three standard deviations; still without a place. MRPT 2.5's CEllipsoid2D draws other ellipses:
+/// of U U^t where the covariance is U^t U.
+mrpt::opengl::CSetOfLines::Ptr makeEllipse(const mrpt::img::TColor& colour);
+void placeEllipse(mrpt::opengl::CSetOfLines& ellipse, const Vector2& mean, const Matrix2& covariance);
 
 }  // namespace slamot::run

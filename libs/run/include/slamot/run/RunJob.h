@@ -26,9 +26,9 @@ struct JobResult : RunResult {
     bool writes_figure = false, writes_report = false;
 };
 
-/// Runs the log and writes all outputs. Throws ConfigError, PluginError, LogError or EstimatorError when there is
-/// nothing to write or the run cannot go on; a truncated log is a result with its status. After an EstimatorError the
-/// folder holds what came before, status failed.
+/// Runs the log and writes all outputs. Throws ConfigError, PluginError or LogError when there is nothing to write; a
+/// truncated log is a result with its status. So is an EstimatorError in the run, as `failure`: the folder holds what
+/// came before.
 JobResult runLog(const RunRequest& request, const PluginRegistry& registry);
 
 }  // namespace slamot::run
