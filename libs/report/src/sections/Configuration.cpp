@@ -1,8 +1,6 @@
 // What of the log was not used, every setting, and how to run it again.
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "ConfigLines.h"
 #include "sections/Sections.h"
 #include "slamot/report/ShellWord.h"
@@ -33,32 +31,29 @@ std::vector<Block> drops(const RunFolder& run) {
     return {table};
 }
 
-std::string nameOf(const std::string& folder) {
-    const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
-    return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
-}
-
 std::vector<Block> configuration(const RunFolder& run) {
     const std::string truth = run.text("truth");
-    std::string command = fmt::format("slamot run run.ini {} -o {} --truth {}", shellWord(run.text("log")),
-                                      shellWord(nameOf(run.folder) + "_again"), truth.empty() ? "none" : shellWord(truth));
+    std::string command = fmt::format("slamot run run.ini {} -o run_again --truth {}",
+                                      shellWord(run.text("log")), truth.empty() ? "none" : shellWord(truth));
     if (const std::string seed = run.digits("seed");
         !seed.empty() && !configHolds(run.text("config"), "run", "seed")) {
         command += " --seed " + seed;
     }
     const std::string directory = run.text("directory");
     const std::string start = directory.empty() ? "Save the settings below as run.ini, then"
-                                                : fmt::format("Save the settings below as run.ini in {}, where "
-                                                              "the run was started, then there",
-                                                              directory);
-    return {Paragraph{start}, Verbatim{command, "", true},
-            Verbatim{run.text("config"),
-                     "Settings that were given; `slamot config` prints all with their defaults", true},
-            Paragraph{run.text("status") == "stopped"
-                          ? "This run was stopped, and the command runs the whole log: estimate_sha256, of all "
-                            "estimates, will be another than"
-                          : "The estimates are the same where estimate_sha256 in summary.json is"},
-            Verbatim{run.text("estimate_sha256"), "", false}};
+                                                : fmt::format(
+                                                      "Save the settings below as run.ini in {}, where "
+                                                      "the run was started, then there",
+                                                      directory);
+    return {
+        Paragraph{start}, Verbatim{command, "", true},
+        Verbatim{run.text("config"),
+                 "Settings that were given; `slamot config` prints all with their defaults", true},
+        Paragraph{run.text("status") == "stopped"
+                      ? "This run was stopped, and the command runs the whole log: estimate_sha256, of all "
+                        "estimates, will be another than"
+                      : "The estimates are the same where estimate_sha256 in summary.json is"},
+        Verbatim{run.text("estimate_sha256"), "", false}};
 }
 
 }  // namespace
