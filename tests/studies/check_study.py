@@ -5,6 +5,7 @@
 
 Exit 0 when all checks passed but those named, which must have failed; 77 (skipped) when the study's data are not there.
 """
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,8 +23,8 @@ print(done.stdout, done.stderr, sep="\n")
 if "nothing remains to run" in done.stderr:
     print("skipped: the data are not there")
     sys.exit(77)
-results = {cells[1].strip(): cells[6].strip().lower() for cells in
-           (line.split("|") for line in done.stdout.splitlines()) if len(cells) > 7}
+results = {name: state.lower() for state, name in
+           re.findall(r"^(passed|FAILED|not checked) +(\S+)$", done.stdout, flags=re.MULTILINE)}
 failed = {name for name, result in results.items() if result == "failed"}
 checked = failed | {name for name, result in results.items() if result == "passed"}
 expected_code = 1 if must_fail else 0
