@@ -100,6 +100,21 @@ TEST_P(JointEngines, AgreeOverAWholeRun) {
     EXPECT_LT(bank.activeDimension(), dense.state().dimension() / 2);
 }
 
+/// Both filters around a loop of 260 steps and on, the robot's covariances equal at every step.
+void driveTheLoop(JointFilter& dense, JointFilter& compressed, int steps) {
+    test::LoopScene loop(5, 260);
+    for (int step = 0; step < steps; ++step) {
+        const OdometryIncrement odometry = loop.drive(step);
+        const DetectionSet set = loop.look(step);
+        for (JointFilter* filter : {&dense, &compressed}) {
+            filter->predict(odometry);
+            ASSERT_NO_THROW(filter->update(set)) << step;
+        }
+        const Matrix3 P = dense.robot().covariance, difference = compressed.robot().covariance - P;
+        ASSERT_LT(difference.cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff()) << step;
+    }
+}
+
 TEST_P(JointEngines, AgreeWhenLandmarksAreSeenBeforeTheyArePrepared) {
     // Told that sensors see to 5 m, where they see to 12, the engine has most landmarks come unforeseen,
     // while others are prepared.
@@ -114,17 +129,7 @@ TEST_P(JointEngines, AgreeWhenLandmarksAreSeenBeforeTheyArePrepared) {
     parameters.engine.active_set.keep_margin = 1.25;
     JointFilter compressed(parameters, {}), dense = filterWith(JointEngine::Kind::dense, consistency);
     compressed.start({}, {{0, 0, 0}, Matrix3::Identity() * 1e-4});
-    test::LoopScene loop(5, 260);
-    for (int step = 0; step < 300; ++step) {
-        const OdometryIncrement odometry = loop.drive(step);
-        const DetectionSet set = loop.look(step);
-        for (JointFilter* filter : {&dense, &compressed}) {
-            filter->predict(odometry);
-            filter->update(set);
-        }
-        const Matrix3 P = dense.robot().covariance, difference = compressed.robot().covariance - P;
-        ASSERT_LT(difference.cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff()) << step;
-    }
+    ASSERT_NO_FATAL_FAILURE(driveTheLoop(dense, compressed, 300));
     EXPECT_GT(dynamic_cast<const CompressedJointBank&>(compressed.state()).unforeseen(), 50);
 }
 
@@ -136,17 +141,7 @@ TEST_P(JointEngines, AgreeWhereAllIsUncertainTogether) {
     const auto& [consistency, background] = GetParam();
     JointFilter dense = filterWith(JointEngine::Kind::dense, consistency, false, 1000),
                 compressed = filterWith(JointEngine::Kind::compressed, consistency, background, 1000);
-    test::LoopScene loop(5, 260);
-    for (int step = 0; step < 320; ++step) {
-        const OdometryIncrement odometry = loop.drive(step);
-        const DetectionSet set = loop.look(step);
-        for (JointFilter* filter : {&dense, &compressed}) {
-            filter->predict(odometry);
-            ASSERT_NO_THROW(filter->update(set)) << step;
-        }
-        const Matrix3 P = dense.robot().covariance, difference = compressed.robot().covariance - P;
-        ASSERT_LT(difference.cwiseAbs().maxCoeff(), 1e-9 * P.cwiseAbs().maxCoeff()) << step;
-    }
+    ASSERT_NO_FATAL_FAILURE(driveTheLoop(dense, compressed, 320));
     const Eigen::MatrixXd P = dense.jointCovariance().matrix;
     EXPECT_LT((compressed.jointCovariance().matrix - P).cwiseAbs().maxCoeff(),
               1e-9 * P.cwiseAbs().maxCoeff());

@@ -19,17 +19,8 @@ constexpr int degrees = 2;  // range and bearing
 constexpr std::size_t most_windows = 80, most_groups = 4;
 constexpr double lowest_shown = 0.01;  // 0.5 % of innovations should lie below
 
-/// What was seen, in the plural.
-const char* wordOf(ObjectKind kind) {
-    switch (kind) {
-        case ObjectKind::landmark:
-            return "landmarks";
-        case ObjectKind::mover:
-            return "movers";
-        case ObjectKind::unknown:
-            break;
-    }
-    return "landmark or mover";
+std::string wordsOf(ObjectKind kind) {
+    return kind == ObjectKind::unknown ? "landmarks or movers" : std::string(toText(kind)) + "s";
 }
 
 using Group = std::pair<std::string, ObjectKind>;
@@ -105,7 +96,7 @@ Panel panelOf(const RunFolder& run, const Group& group, const Rows& rows) {
     Panel panel;
     panel.title =
         fmt::format("sensor '{}', {}: {:.1f} % of {} within {:.2g} to {:.2g}, expected {:.3g} %", group.first,
-                    wordOf(group.second), 100 * inside / static_cast<double>(rows.size()), rows.size(),
+                    wordsOf(group.second), 100 * inside / static_cast<double>(rows.size()), rows.size(),
                     single.low, single.high, 100 * probability);
     panel.x = runTimeAxis(run);
     panel.y.label = "NIS";
