@@ -29,12 +29,12 @@ def write_run(folder, steps, landmarks):
     grid = {}
     for i, (x, y) in enumerate(places):
         grid.setdefault((int(x // 10), int(y // 10)), []).append(i)
-    summary = {"program": "slamot", "version": "0.1.0", "status": "complete", "log": "large.rawlog", "truth": None,
+    truth = folder.parent / "large.truth"
+    summary = {"program": "slamot", "version": "0.1.0", "status": "complete", "log": "large.rawlog", "truth": str(truth),
                "estimator": "ekf_slamot", "detector": "none", "seed": 1, "config": "[run]\nestimator = ekf_slamot\n",
                "counts": {"landmarks": landmarks, "tracks_at_end": 1}, "drops": [], "warnings": [], "metrics": None,
                "sensors": [{"label": "eye", "x": 0, "y": 0, "theta": 0, "max_range": 10, "field_of_view": 6.283}]}
     (folder / "summary.json").write_text(json.dumps(summary))
-    truth = folder.parent / "large.truth"
     truth.mkdir()
     (truth / "truth.json").write_text("{}")
     with open(truth / "landmarks.csv", "w") as out:
@@ -77,7 +77,7 @@ def write_run(folder, steps, landmarks):
     n = 512
     cells = [1.0 if i == j else math.exp(-abs(i - j) / 60) * draw.uniform(0.7, 1) for i in range(n) for j in range(n)]
     (folder / "correlation.bin").write_bytes(b"SLAMCORR" + struct.pack("<3I", 1, 9 + 2 * len(seen), n) + struct.pack(f"<{n * n}f", *cells))
-    return truth, len(seen)
+    return len(seen)
 
 
 def main():
@@ -90,9 +90,9 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         run = pathlib.Path(temporary) / "run"
         run.mkdir()
-        truth, seen = write_run(run, options.steps, options.landmarks)
+        seen = write_run(run, options.steps, options.landmarks)
         begin = time.monotonic()
-        subprocess.run([options.program, "-q", "report", run, "--truth", truth], check=True)
+        subprocess.run([options.program, "-q", "report", run], check=True)
         print(f"{options.steps} steps, {seen} landmarks seen: made in {time.monotonic() - begin:.1f} s, ", end="")
         page = run / "report.html"
         print(f"{page.stat().st_size / 1e6:.2f} MB", end="")
