@@ -8,7 +8,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "HandOver.h"
+#include "slamot/core/threads/HandOver.h"
 
 namespace slamot::study {
 

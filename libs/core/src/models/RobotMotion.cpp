@@ -12,34 +12,52 @@ double controlVarianceScale(const OdometryIncrement& odometry) {
     return odometry.entry_seconds > dt && dt > 0 ? odometry.entry_seconds / dt : 1.0;
 }
 
-MotionPrediction predictSteered(const RobotMotionParameters& p, const Vector3& x, const OdometryIncrement& odometry) {
-    const SteeredControl control = bodyToSteered(*odometry.velocity);
-    const double dt = odometry.seconds(), step = control.v * dt, course = x.z() + control.gamma;
+/// f at the control and its Jacobians.
+struct Step {
+    Vector3 pose;
+    Matrix3 F, G;  ///< d f / d x, d f / d u
+};
+
+Step steeredStep(const Vector3& x, const Vector3& u, double dt, double wheelbase) {
+    const double step = u(0) * dt, course = x.z() + u(1);
     const double c = std::cos(course), s = std::sin(course);
 
-    MotionPrediction out;
-    out.pose = steeredMotion<double>(x, {control.v, control.gamma}, dt, p.wheelbase);
+    Step out;
+    out.pose = steeredMotion<double>(x, u.head<2>(), dt, wheelbase);
     out.F << 1, 0, -step * s, 0, 1, step * c, 0, 0, 1;  // paper 1, eq. 29
-    Eigen::Matrix<double, 3, 2> G;                      // paper 1, eq. 30
-    G << dt * c, -step * s, dt * s, step * c, dt * std::sin(control.gamma) / p.wheelbase,
-        step * std::cos(control.gamma) / p.wheelbase;
-    const Vector2 q(p.speed_std * p.speed_std, p.steering_std * p.steering_std);
-    out.Q = controlVarianceScale(odometry) * (G * q.asDiagonal() * G.transpose());
+    out.G << dt * c, -step * s, 0, dt * s, step * c, 0, dt * std::sin(u(1)) / wheelbase,
+        step * std::cos(u(1)) / wheelbase, 0;  // paper 1, eq. 30
     return out;
 }
 
-MotionPrediction predictDifferential(const RobotMotionParameters& p, const Vector3& x,
-                                     const OdometryIncrement& odometry) {
-    const double v = odometry.velocity->vx, w = odometry.velocity->omega, dt = odometry.seconds();
+Step differentialStep(const Vector3& x, const Vector3& u, double dt) {
     const double c = std::cos(x.z()), s = std::sin(x.z());
 
-    MotionPrediction out;
-    out.pose = differentialMotion<double>(x, {v, w}, dt);
-    out.F << 1, 0, -v * dt * s, 0, 1, v * dt * c, 0, 0, 1;
-    Eigen::Matrix<double, 3, 2> G;
-    G << dt * c, 0, dt * s, 0, 0, dt;
-    const Vector2 q(p.speed_std * p.speed_std, p.turn_rate_std * p.turn_rate_std);
-    out.Q = controlVarianceScale(odometry) * (G * q.asDiagonal() * G.transpose());
+    Step out;
+    out.pose = differentialMotion<double>(x, u.head<2>(), dt);
+    out.F << 1, 0, -u(0) * dt * s, 0, 1, u(0) * dt * c, 0, 0, 1;
+    out.G << dt * c, 0, 0, dt * s, 0, 0, 0, dt, 0;
+    return out;
+}
+
+Step arcStep(const Vector3& x, const Vector3& u) {
+    const double course = x.z() + 0.5 * u(2), c = std::cos(course), s = std::sin(course);
+    const double turn_x = -u(0) * s - u(1) * c, turn_y = u(0) * c - u(1) * s;
+
+    Step out;
+    out.pose = arcMotion<double>(x, u);
+    out.F << 1, 0, turn_x, 0, 1, turn_y, 0, 0, 1;
+    out.G << c, -s, 0.5 * turn_x, s, c, 0.5 * turn_y, 0, 0, 1;
+    return out;
+}
+
+Step incrementStep(const Vector3& x, const Vector3& u) {
+    const double c = std::cos(x.z()), s = std::sin(x.z());
+
+    Step out;
+    out.pose = incrementMotion<double>(x, u);
+    out.F << 1, 0, -u(0) * s - u(1) * c, 0, 1, u(0) * c - u(1) * s, 0, 0, 1;
+    out.G << c, -s, 0, s, c, 0, 0, 0, 1;
     return out;
 }
 
@@ -51,45 +69,45 @@ Matrix3 randomWalk(const RobotMotionParameters& p, double distance, double turn)
         .asDiagonal();
 }
 
-MotionPrediction predictArc(const RobotMotionParameters& p, const Vector3& x, const OdometryIncrement& odometry) {
+MotionControl velocityControl(const RobotMotionParameters& p, const OdometryIncrement& odometry) {
+    MotionControl u;
+    u.size = 2;
+    Vector3 deviation = Vector3::Zero();
+    if (p.model == RobotMotionModel::steered) {
+        const SteeredControl control = bodyToSteered(*odometry.velocity);
+        u.mean.head<2>() << control.v, control.gamma;
+        deviation.head<2>() << p.speed_std, p.steering_std;
+    } else {
+        u.mean.head<2>() << odometry.velocity->vx, odometry.velocity->omega;
+        deviation.head<2>() << p.speed_std, p.turn_rate_std;
+    }
+    u.covariance.diagonal() = controlVarianceScale(odometry) * deviation.array().square().matrix();
+    return u;
+}
+
+MotionControl arcControl(const RobotMotionParameters& p, const OdometryIncrement& odometry) {
     const Pose2& d = odometry.increment;
     // The chord's component along theta + dtheta/2; what lies across it no rolling robot can do.
     const double half = 0.5 * d.theta, ds = d.x * std::cos(half) + d.y * std::sin(half);
-    const double course = x.z() + half, c = std::cos(course), s = std::sin(course);
-
-    MotionPrediction out;
-    out.pose = arcMotion<double>(x, {ds, 0.0, d.theta});
-    out.F << 1, 0, -ds * s, 0, 1, ds * c, 0, 0, 1;
-    Matrix3 G;
-    G << c, -s, -0.5 * ds * s, s, c, 0.5 * ds * c, 0, 0, 1;
-    Matrix3 Qu = randomWalk(p, std::abs(ds), std::abs(d.theta));
+    MotionControl u{{ds, 0.0, d.theta}, randomWalk(p, std::abs(ds), std::abs(d.theta)), 3};
     if (odometry.covariance && p.use_log_covariance) {
         // d u / d increment: the chord's own direction turns with half the turn.
         const double dl = d.y * std::cos(half) - d.x * std::sin(half);
         Matrix3 to_chord = Matrix3::Identity();
         to_chord.topLeftCorner<2, 2>() = rotation(-half);
         to_chord.topRightCorner<2, 1>() << 0.5 * dl, -0.5 * ds;
-        Qu = to_chord * *odometry.covariance * to_chord.transpose();
+        u.covariance = to_chord * *odometry.covariance * to_chord.transpose();
     }
-    out.Q = G * Qu * G.transpose();
-    return out;
+    return u;
 }
 
-MotionPrediction predictIncrement(const RobotMotionParameters& p, const Vector3& x,
-                                  const OdometryIncrement& odometry) {
+MotionControl incrementControl(const RobotMotionParameters& p, const OdometryIncrement& odometry) {
     const Pose2& d = odometry.increment;
-    const double c = std::cos(x.z()), s = std::sin(x.z());
-
-    MotionPrediction out;
-    out.pose = incrementMotion<double>(x, d.vector());
-    out.F << 1, 0, -d.x * s - d.y * c, 0, 1, d.x * c - d.y * s, 0, 0, 1;
-    Matrix3 G;
-    G << c, -s, 0, s, c, 0, 0, 0, 1;
-    const Matrix3 Qu = odometry.covariance && p.use_log_covariance
-                           ? *odometry.covariance
-                           : randomWalk(p, std::hypot(d.x, d.y), std::abs(d.theta));
-    out.Q = G * Qu * G.transpose();
-    return out;
+    return {d.vector(),
+            odometry.covariance && p.use_log_covariance
+                ? *odometry.covariance
+                : randomWalk(p, std::hypot(d.x, d.y), std::abs(d.theta)),
+            3};
 }
 
 }  // namespace
@@ -128,17 +146,44 @@ std::string missingField(const RobotMotionParameters& p, const OdometryIncrement
     return reads_velocity && !odometry.velocity ? "velocity" : "";
 }
 
+MotionControl controlOf(const RobotMotionParameters& p, const OdometryIncrement& odometry) {
+    switch (p.model) {
+        case RobotMotionModel::arc: return arcControl(p, odometry);
+        case RobotMotionModel::increment: return incrementControl(p, odometry);
+        default: return velocityControl(p, odometry);
+    }
+}
+
+Vector3 moved(const RobotMotionParameters& p, const Vector3& pose, const Vector3& u, double dt) {
+    Vector3 out = pose;
+    switch (p.model) {
+        case RobotMotionModel::steered:
+            out = steeredMotion<double>(pose, u.head<2>(), dt, p.wheelbase);
+            break;
+        case RobotMotionModel::differential: out = differentialMotion<double>(pose, u.head<2>(), dt); break;
+        case RobotMotionModel::arc: out = arcMotion<double>(pose, u); break;
+        case RobotMotionModel::increment: out = incrementMotion<double>(pose, u); break;
+    }
+    out.z() = wrapAngle(out.z());
+    return out;
+}
+
+MotionPrediction predictMotion(const RobotMotionParameters& p, const Vector3& pose, const MotionControl& control,
+                               double dt) {
+    Step step;
+    switch (p.model) {
+        case RobotMotionModel::steered: step = steeredStep(pose, control.mean, dt, p.wheelbase); break;
+        case RobotMotionModel::differential: step = differentialStep(pose, control.mean, dt); break;
+        case RobotMotionModel::arc: step = arcStep(pose, control.mean); break;
+        case RobotMotionModel::increment: step = incrementStep(pose, control.mean); break;
+    }
+    step.pose.z() = wrapAngle(step.pose.z());
+    return {step.pose, step.F, step.G * control.covariance * step.G.transpose()};
+}
+
 MotionPrediction predictMotion(const RobotMotionParameters& p, const Vector3& pose,
                                const OdometryIncrement& odometry) {
-    MotionPrediction out;
-    switch (p.model) {
-        case RobotMotionModel::steered: out = predictSteered(p, pose, odometry); break;
-        case RobotMotionModel::differential: out = predictDifferential(p, pose, odometry); break;
-        case RobotMotionModel::arc: out = predictArc(p, pose, odometry); break;
-        case RobotMotionModel::increment: out = predictIncrement(p, pose, odometry); break;
-    }
-    out.pose.z() = wrapAngle(out.pose.z());
-    return out;
+    return predictMotion(p, pose, controlOf(p, odometry), odometry.seconds());
 }
 
 BodyVelocity steeredToBody(double v, double gamma, double wheelbase) {

@@ -72,16 +72,32 @@ struct RobotMotionParameters {
 
 ParameterTable describe(RobotMotionParameters& parameters);
 
+/// The control u of one step and how well it is known. Steered: [v gamma 0], differential: [v omega 0], arc and
+/// increment: as their functions above have it.
+struct MotionControl {
+    Vector3 mean = Vector3::Zero();
+    Matrix3 covariance = Matrix3::Zero();
+    int size = 3;  ///< 2 where the last entry means nothing
+};
+
+/// Names the missing field when the increment lacks what the model reads, else empty.
+std::string missingField(const RobotMotionParameters& parameters, const OdometryIncrement& odometry);
+
+/// What the odometry says of the control. It must have what the model reads.
+MotionControl controlOf(const RobotMotionParameters& parameters, const OdometryIncrement& odometry);
+
+/// f(x, u) over dt [s]; heading wrapped.
+Vector3 moved(const RobotMotionParameters& parameters, const Vector3& pose, const Vector3& control, double dt);
+
 struct MotionPrediction {
     Vector3 pose;       ///< [x y theta], heading wrapped
     Matrix3 F;          ///< d f / d x
     Matrix3 Q;          ///< noise of the pose: G Q_u G^t
 };
 
-/// Names the missing field when the increment lacks what the model reads, else empty.
-std::string missingField(const RobotMotionParameters& parameters, const OdometryIncrement& odometry);
-
-/// One step of the chosen model. The odometry must have what the model reads.
+/// One step at the control's mean, with Jacobians.
+MotionPrediction predictMotion(const RobotMotionParameters& parameters, const Vector3& pose,
+                               const MotionControl& control, double dt);
 MotionPrediction predictMotion(const RobotMotionParameters& parameters, const Vector3& pose,
                                const OdometryIncrement& odometry);
 

@@ -3,7 +3,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace slamot::study {
+namespace slamot {
 
 /// Tells the thread sanitizer what it cannot see: oneTBB's library is not instrumented, so that what the
 /// caller wrote before it began tasks, and what tasks wrote before they ended, would look unordered with what
@@ -29,4 +29,4 @@ class HandOver {
 #endif
 };
 
-}  // namespace slamot::study
+}  // namespace slamot

@@ -1,0 +1,77 @@
+#pragma once
+// One batch of detections as all particles look at it: what does not depend on a particle is worked out once.
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "slamot/core/data/Detections.h"
+#include "slamot/core/data/Estimate.h"
+#include "slamot/core/filter/SensorLimits.h"
+#include "slamot/core/objects/Existence.h"
+
+namespace slamot {
+
+/// A detection of what may be a landmark.
+struct ScanSight {
+    int detection;    ///< index in the batch
+    Vector2 z;        ///< [range bearing]
+    Matrix2 R;        ///< its noise
+    int view;         ///< index among the scan's views
+    SourceId source;  ///< valid where the log says what it is
+    /// Named: the landmark's number, the same in all particles; none at its first sight, or where there is no name.
+    LandmarkId known_as;
+    /// The number that what it starts has in every particle: one for each detection of a run, so that what
+    /// particles started with the same detection has the same number in all of them.
+    LandmarkId birth;
+    double unexplained;  ///< density [1/(m rad)] of detections that come from nothing known
+
+    bool named() const { return source.valid(); }
+};
+
+/// A sensor as it looks now.
+struct ScanView {
+    RangeBearingSensor sensor;
+    double reach;   ///< [m] from the robot's origin within which it detects anything
+    bool nameless;  ///< it detects what has no identity: what it misses speaks against that
+};
+
+struct ParticleScan {
+    Stamp now;
+    std::vector<ScanSight> sights;
+    std::vector<ScanView> views;
+    double reach = 0;       ///< [m], the largest of the views'
+    bool nameless = false;  ///< whether any view is
+
+    const ScanView& viewOf(const ScanSight& sight) const { return views[static_cast<std::size_t>(sight.view)]; }
+    const Pose2& sensorOf(const ScanSight& sight) const { return viewOf(sight).sensor.pose; }
+};
+
+/// Makes scans of batches, and remembers what that takes.
+class ScanMaker {
+  public:
+    /// use_nameless: whether detections without identity are taken in at all.
+    ScanMaker(const LifeParameters& life, bool use_nameless) : life_(life), use_nameless_(use_nameless) {}
+
+    void clear() { *this = ScanMaker(life_, use_nameless_); }
+    ParticleScan scan(const DetectionSet& set);
+
+  private:
+    LifeParameters life_;
+    bool use_nameless_;
+    SensorLimits limits_;
+    std::set<std::string> nameless_;  ///< labels of sensors that have detected what has no identity
+    std::unordered_map<SourceId, LandmarkId> named_;
+    std::int64_t detections_ = 0;
+};
+
+/// What became of a sight in one particle.
+struct SightRecord {
+    Outcome outcome = Outcome::ignored;
+    LandmarkId landmark;
+    TrackId track;
+    Vector2 z = Vector2::Zero();        ///< expected, at the predicted pose
+    Matrix2 S = Matrix2::Identity();    ///< innovation covariance there
+};
+
+}  // namespace slamot

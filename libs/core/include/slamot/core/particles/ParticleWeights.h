@@ -1,0 +1,40 @@
+#pragma once
+// Weights of particles, in logarithms, and who survives.
+#include <vector>
+
+#include "slamot/core/random/RandomStream.h"
+
+namespace slamot {
+
+enum class Resampling {
+    systematic,  ///< one draw for all: number of children within 1 of N w
+    residual     ///< floor(N w) children each, the rest drawn by systematic resampling of what is left
+};
+
+class ParticleWeights {
+  public:
+    explicit ParticleWeights(int count = 1);
+
+    int count() const { return static_cast<int>(log_weights_.size()); }
+    /// Normalised since the last `normalise`.
+    double operator[](int i) const { return weights_[static_cast<std::size_t>(i)]; }
+    void setEqual();
+
+    /// w_i <- w_i exp(log_factor_i), normalised. Factors that are not finite count as 0; if none is finite the
+    /// weights stay as they were, which is said by false.
+    bool multiply(const std::vector<double>& log_factors);
+
+    /// 1 / sum w^2: between 1 and count().
+    double effectiveCount() const;
+    /// The lowest number among the heaviest.
+    int best() const;
+    /// The parent of each child, ascending.
+    std::vector<int> resampled(Resampling method, RandomStream& random) const;
+
+  private:
+    void normalise();
+
+    std::vector<double> log_weights_, weights_;
+};
+
+}  // namespace slamot

@@ -1,0 +1,67 @@
+#pragma once
+// How a Gaussian point is seen from a particle's pose, and what a detection says of it.
+#include "slamot/core/models/RangeBearing.h"
+#include "slamot/core/particles/PoseBelief.h"
+
+namespace slamot {
+
+/// A point of a map given the path of the particle that the map belongs to [m].
+struct GaussianPoint {
+    Vector2 mean = Vector2::Zero();
+    Matrix2 covariance = Matrix2::Zero();
+};
+
+/// z = [range bearing] of a point as a sensor is about to see it, without the detection's own noise.
+struct PointSight {
+    Vector2 z;
+    Matrix2 covariance;                  ///< of z, from pose and point
+    Eigen::Matrix<double, 2, 3> A;       ///< d z / d xi of the pose, x = mean + factor xi: H_robot factor
+    Matrix2 cross;                       ///< covariance of point and z
+};
+
+/// Pose and point as uncertain as they are.
+PointSight sightOf(const GaussianPoint& point, const PoseBelief& pose, const Pose2& sensor,
+                   GaussianTransform transform);
+/// From a known pose: A is zero.
+PointSight sightOf(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor,
+                   GaussianTransform transform);
+
+/// A detection beside what was expected of it, with its noise R.
+struct PointInnovation {
+    PointInnovation(const PointSight& sight, const Vector2& z, const Matrix2& R);
+
+    Vector2 residual;
+    Matrix2 S, S_inverse;
+    double nis;
+    double log_likelihood;  ///< log N(residual; 0, S), 1/(m rad)
+};
+
+/// The point given the detection (paper 4, eq. 24 to 28). Symmetric and positive definite.
+void update(GaussianPoint& point, const PointSight& sight, const PointInnovation& innovation);
+
+/// A point at first sight from a known pose (paper 4, eq. 29 to 31).
+GaussianPoint firstSight(const Vector3& pose, const Vector2& z, const Matrix2& R, const Pose2& sensor,
+                         GaussianTransform transform);
+
+/// A pose belief that takes in one sight after the other, in the coordinates xi of the belief it began with.
+class RefinedPose {
+  public:
+    explicit RefinedPose(const PoseBelief& prior) : prior_(prior), belief_(prior) {}
+
+    const PoseBelief& belief() const { return belief_; }
+    /// `sight` as seen from belief(). Joint with the point's own uncertainty, which counts as noise.
+    void take(const PointSight& sight, const PointInnovation& innovation);
+
+    struct Draw {
+        Vector3 pose;
+        double log_ratio;  ///< log of prior over proposal density at the pose
+    };
+    Draw draw(RandomStream& random) const;
+
+  private:
+    PoseBelief prior_, belief_;
+    Vector3 shift_ = Vector3::Zero();         ///< xi ~ N(shift, spread spread^t) by now
+    Matrix3 spread_ = Matrix3::Identity();    ///< lower triangular
+};
+
+}  // namespace slamot

@@ -1,0 +1,287 @@
+#include "slamot/core/particles/LandmarkFilters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slamot/core/association/ChiSquare.h"
+#include "slamot/core/association/NearestNeighbour.h"
+#include "slamot/core/objects/FieldOfView.h"
+
+namespace slamot {
+namespace {
+
+using Place = SharedPages<LandmarkFilter>::Place;
+
+bool operator==(Place a, Place b) {
+    return a.page == b.page && a.item == b.item;
+}
+
+/// [m] by which landmarks may lie off where they are looked for, beyond what a sensor reaches.
+constexpr double view_margin = 1.0;
+
+/// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked at:
+/// a gate in range and bearing is bent there.
+constexpr double bend = 4.0;
+
+/// Where a sight would be on the plane, and the sum of its variances there.
+struct OnPlane {
+    Vector2 point;
+    double variance;
+};
+
+OnPlane onPlane(const PoseBelief& pose, const ScanSight& sight, const Pose2& sensor) {
+    const double across = sight.z.x() * sight.z.x() * (sight.R(1, 1) + pose.factor.row(2).squaredNorm());
+    return {inverseRangeBearing<double>(pose.mean, sight.z, sensor),
+            sight.R(0, 0) + across + pose.factor.topRows<2>().squaredNorm()};
+}
+
+/// Cheap: false for what lies clearly beside the field of view.
+bool mayBeInView(const Vector3& pose, const ScanView& view, const GaussianPoint& point) {
+    const Vector2 rel = point.mean - pose.head<2>() - rotation(pose.z()) * view.sensor.pose.position();
+    const double spread = 4 * std::sqrt(point.covariance.trace()), range = rel.norm();
+    if (range > view.sensor.max_range + spread) return false;
+    const double half = 0.5 * view.sensor.field_of_view + (range > spread ? spread / range : pi);
+    if (half >= pi) return true;
+    const double direction = pose.z() + view.sensor.pose.theta;
+    return rel.x() * std::cos(direction) + rel.y() * std::sin(direction) >= range * std::cos(half);
+}
+
+}  // namespace
+
+LandmarkFilters::Settings::Settings(const LandmarkFilterParameters& p, GaussianTransform t)
+    : parameters(p),
+      transform(t),
+      gate(chiSquareQuantile(p.gate_probability, 2)),
+      separation_gate(std::max(gate, chiSquareQuantile(p.separation_probability, 2))) {}
+
+// --- which sight is of which landmark
+// ---------------------------------------------------------------------------------------------------
+
+void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
+                             std::vector<SightRecord>& records) const {
+    work.near.clear();
+    work.near_of.assign(scan.sights.size(), -1);
+    work.may_start.assign(scan.sights.size(), false);
+    if (scan.nameless) findNear(pose.mean.head<2>(), scan, work);
+    pairNamed(scan, work);
+    if (scan.nameless) pairNameless(settings, pose, scan, work);
+
+    records.assign(scan.sights.size(), {});
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        if (work.near_of[s] < 0) continue;
+        const ScanSight& sight = scan.sights[s];
+        const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
+        const PointSight expected = sightOf(near.point, pose, scan.sensorOf(sight), settings.transform);
+        records[s].landmark = landmarks_.at(near.place).id;
+        records[s].z = expected.z;
+        records[s].S = expected.covariance + sight.R;
+    }
+}
+
+void LandmarkFilters::findNear(const Vector2& position, const ParticleScan& scan, Work& work) const {
+    landmarks_.forEachNear(position, scan.reach + view_margin, [&](Place place, const LandmarkFilter& landmark) {
+        work.near.push_back({place, landmark.point, false, landmark.source.valid()});
+    });
+}
+
+void LandmarkFilters::pairNamed(const ParticleScan& scan, Work& work) const {
+    const int found = static_cast<int>(work.near.size());
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (!sight.named()) continue;
+        work.may_start[s] = !sight.known_as.valid();
+        Place place;
+        if (!sight.known_as.valid() || !landmarks_.locate(sight.known_as, place)) continue;
+        int n = 0;
+        while (n < found && !(work.near[static_cast<std::size_t>(n)].place == place)) ++n;
+        if (n == found) {
+            n = static_cast<int>(work.near.size());
+            work.near.push_back({place, landmarks_.at(place).point, false, true});
+        }
+        work.near[static_cast<std::size_t>(n)].paired = true;
+        work.near_of[s] = n;
+    }
+}
+
+void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                                   Work& work) const {
+    const LandmarkFilterParameters& p = settings.parameters;
+    work.candidates.clear();
+    work.wide.clear();
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.named()) continue;
+        const Pose2& sensor = scan.sensorOf(sight);
+        const OnPlane at = onPlane(pose, sight, sensor);
+        for (std::size_t n = 0; n < work.near.size(); ++n) {
+            const Work::Near& near = work.near[n];
+            if (near.paired) continue;
+            const double variance = at.variance + near.point.covariance.trace();
+            if ((near.point.mean - at.point).squaredNorm() > bend * settings.separation_gate * variance) continue;
+            const PointInnovation innovation(sightOf(near.point, pose, sensor, settings.transform), sight.z, sight.R);
+            if (innovation.nis > settings.separation_gate) continue;
+            Candidate pair{static_cast<int>(s), static_cast<int>(n), innovation.nis, -0.5 * innovation.nis};
+            work.wide.push_back(pair);
+            if (innovation.nis > settings.gate) continue;
+            if (p.association == ParticleAssociation::likelihood) {
+                const double visible = landmarks_.at(near.place).existence.visibility();
+                pair.log_likelihood =
+                    innovation.log_likelihood + std::log(p.life.detection_probability * visible);
+                if (pair.log_likelihood <= std::log(sight.unexplained)) continue;
+            }
+            work.candidates.push_back(pair);
+        }
+    }
+    const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
+                                     work.candidates);
+    const Pairing pairing = nearestNeighbour(problem);
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const int c = pairing.of(static_cast<int>(s));
+        if (c < 0) continue;
+        work.near_of[s] = problem.candidate(c).object;
+        work.near[static_cast<std::size_t>(work.near_of[s])].paired = true;
+    }
+    // What lies near a landmark that is not seen otherwise may be of it: it starts nothing.
+    for (std::size_t s = 0; s < scan.sights.size(); ++s)
+        if (!scan.sights[s].named()) work.may_start[s] = work.near_of[s] < 0;
+    for (const Candidate& pair : work.wide)
+        if (!work.near[static_cast<std::size_t>(pair.object)].paired)
+            work.may_start[static_cast<std::size_t>(pair.detection)] = false;
+}
+
+// --- what it says
+// ---------------------------------------------------------------------------------------------------
+
+void LandmarkFilters::refine(const Settings& settings, const ParticleScan& scan, const Work& work,
+                             RefinedPose& pose) const {
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        if (work.near_of[s] < 0) continue;
+        const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
+        if (!near.named && !landmarks_.at(near.place).existence.confirmed(settings.parameters.life)) continue;
+        const ScanSight& sight = scan.sights[s];
+        const PointSight expected = sightOf(near.point, pose.belief(), scan.sensorOf(sight), settings.transform);
+        pose.take(expected, PointInnovation(expected, sight.z, sight.R));
+    }
+}
+
+double LandmarkFilters::update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+                               std::vector<SightRecord>& records) {
+    double log_likelihood = 0;
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (!sight.named()) log_likelihood += std::log(sight.unexplained);
+        if (work.near_of[s] < 0) continue;
+        const Place place = work.near[static_cast<std::size_t>(work.near_of[s])].place;
+        records[s].outcome = landmarks_.at(place).existence.confirmed(settings.parameters.life)
+                                 ? Outcome::updated
+                                 : Outcome::tentative;
+        log_likelihood += detected(settings, pose, scan, sight, place);
+    }
+    if (scan.nameless) log_likelihood += missed(settings, pose, scan, work);
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        if (!work.may_start[s]) continue;
+        start(settings, pose, scan, scan.sights[s]);
+        records[s].landmark = scan.sights[s].birth;
+        records[s].outcome = scan.sights[s].named() ? Outcome::initiated : Outcome::tentative;
+    }
+    if (scan.nameless) letGo(settings, scan.now, work);
+    return log_likelihood;
+}
+
+double LandmarkFilters::detected(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                                 const ScanSight& sight, Place place) {
+    const LifeParameters& life = settings.parameters.life;
+    LandmarkFilter& landmark = landmarks_.write(place);
+    const PointSight expected = sightOf(landmark.point, pose, scan.sensorOf(sight), settings.transform);
+    const PointInnovation innovation(expected, sight.z, sight.R);
+    slamot::update(landmark.point, expected, innovation);
+    landmarks_.moved(place);
+    ++landmark.seen;
+    landmark.last_seen = scan.now;
+    if (sight.named()) return innovation.log_likelihood;
+
+    // The landmark is visible and detected, or the detection is of something else.
+    landmark.existence.pass(secondsBetween(landmark.looked, scan.now), life);
+    landmark.looked = scan.now;
+    const double ratio =
+        life.detection_probability * std::exp(innovation.log_likelihood) / sight.unexplained;
+    const double visible = landmark.existence.visibility();
+    landmark.existence.detected(ratio);
+    return std::log(visible * ratio + 1 - visible);
+}
+
+double LandmarkFilters::missed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work) {
+    const LifeParameters& life = settings.parameters.life;
+    double log_likelihood = 0;
+    work.lost.clear();
+    for (const ScanView& view : scan.views) {
+        if (!view.nameless) continue;
+        for (const Work::Near& near : work.near) {
+            if (near.paired || near.named || !mayBeInView(pose, view, near.point)) continue;
+            const PointSight expected = sightOf(near.point, pose, view.sensor.pose, GaussianTransform::linear);
+            const double seen = life.detection_probability *
+                                probabilityInView(view.sensor, {expected.z, expected.covariance});
+            if (seen < 1e-3) continue;
+            LandmarkFilter& landmark = landmarks_.write(near.place);
+            landmark.existence.pass(secondsBetween(landmark.looked, scan.now), life);
+            landmark.looked = scan.now;
+            log_likelihood += std::log1p(-seen * landmark.existence.visibility());
+            landmark.existence.missed(seen);
+            if (landmark.existence.lost(life)) work.lost.push_back(near.place);
+        }
+    }
+    return log_likelihood;
+}
+
+// --- what comes and goes
+// ---------------------------------------------------------------------------------------------------
+
+void LandmarkFilters::start(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                            const ScanSight& sight) {
+    LandmarkFilter landmark;
+    landmark.id = sight.birth;
+    landmark.point = firstSight(pose, sight.z, sight.R, scan.sensorOf(sight), settings.transform);
+    landmark.source = sight.source;
+    if (!sight.named()) landmark.existence = Existence(settings.parameters.life);
+    landmark.first_seen = landmark.last_seen = landmark.looked = scan.now;
+    landmarks_.append(landmark);
+}
+
+void LandmarkFilters::letGo(const Settings& settings, Stamp now, Work& work) {
+    // Of what was left behind nothing is missed: one page a scan is looked through for it.
+    if (++swept_ >= landmarks_.pages()) swept_ = 0;
+    landmarks_.forEachOfPage(swept_, [&](Place place, const LandmarkFilter& landmark) {
+        if (!landmark.existence.confirmed(settings.parameters.life) &&
+            secondsBetween(landmark.last_seen, now) > settings.parameters.max_unseen)
+            work.lost.push_back(place);
+    });
+    std::sort(work.lost.begin(), work.lost.end(), [](Place a, Place b) {
+        return a.page != b.page ? a.page < b.page : a.item < b.item;
+    });
+    work.lost.erase(std::unique(work.lost.begin(), work.lost.end(),
+                                [](Place a, Place b) { return a == b; }),
+                    work.lost.end());
+    landmarks_.remove(work.lost);
+}
+
+std::vector<ParameterTable> describe(LandmarkFilterParameters& p, const std::string& name) {
+    ParameterTable association(name + ".association", "Which detection is of which landmark, in each particle.");
+    association
+        .choice("landmarks", p.association,
+                {{"likelihood", ParticleAssociation::likelihood},
+                 {"nearest", ParticleAssociation::nearest},
+                 {"known", ParticleAssociation::known}},
+                "For detections without identity. likelihood: the likeliest pair, where it is likelier than "
+                "something new or false; nearest: the smallest NIS; known: they are ignored.")
+        .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
+              "Part of a landmark's detections that lie inside its gate.")
+        .real("separation_probability", p.separation_probability, "-", Interval::openProbability(),
+              "A detection inside this gate of a landmark that is not seen otherwise starts no new one.");
+    ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
+    describe(p.life, "landmarks", landmarks);
+    landmarks.real("max_unseen", p.max_unseen, "s", Interval::positiveOrInfinite(),
+                   "A landmark that is not confirmed and not seen for longer is let go.");
+    return {association, landmarks};
+}
+
+}  // namespace slamot

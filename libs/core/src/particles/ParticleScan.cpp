@@ -1,0 +1,49 @@
+#include "slamot/core/particles/ParticleScan.h"
+
+#include <algorithm>
+
+#include "slamot/core/objects/FieldOfView.h"
+#include "slamot/core/objects/TentativeObjects.h"
+
+namespace slamot {
+
+ParticleScan ScanMaker::scan(const DetectionSet& set) {
+    const RangeBearingSet seen = limits_.completed(set.rangeBearing());
+    ParticleScan out;
+    out.now = set.stamp;
+    for (const RangeBearingSensor& sensor : seen.sensors)
+        out.views.push_back({sensor, sensor.max_range + sensor.pose.position().norm(), false});
+
+    for (std::size_t i = 0; i < seen.detections.size(); ++i) {
+        const RangeBearingDetection& d = seen.detections[i];
+        const LandmarkId birth{detections_ + static_cast<std::int64_t>(i)};
+        if (d.kind == ObjectKind::mover) continue;
+        const bool named = d.source.valid() && d.kind == ObjectKind::landmark;
+        if (!named && !use_nameless_) continue;
+
+        ScanView& view = out.views[static_cast<std::size_t>(d.sensor)];
+        // A reading beyond the stated limit comes from somewhere too.
+        view.reach = std::max(view.reach, d.range + view.sensor.pose.position().norm());
+        ScanSight sight{static_cast<int>(i), d.z(), d.covariance, d.sensor, {}, {}, birth, 0};
+        if (named) {
+            const auto [known, is_new] = named_.try_emplace(d.source, birth);
+            // Twice in its first batch: the first has started it, the second says nothing that can be used.
+            if (!is_new && known->second.value >= detections_) continue;
+            sight.source = d.source;
+            if (!is_new) sight.known_as = known->second;
+        } else {
+            nameless_.insert(view.sensor.label);
+            sight.unexplained = unexplainedDensity(life_, view.sensor);
+        }
+        out.sights.push_back(sight);
+    }
+    detections_ += static_cast<std::int64_t>(seen.detections.size());
+    for (ScanView& view : out.views) {
+        view.nameless = reports(view.sensor, ObjectKind::landmark) && nameless_.count(view.sensor.label) > 0;
+        out.nameless |= view.nameless;
+        out.reach = std::max(out.reach, view.reach);
+    }
+    return out;
+}
+
+}  // namespace slamot
