@@ -61,6 +61,15 @@ Step incrementStep(const Vector3& x, const Vector3& u) {
     return out;
 }
 
+Step stepOf(const RobotMotionParameters& p, const Vector3& x, const Vector3& u, double dt) {
+    switch (p.model) {
+        case RobotMotionModel::steered: return steeredStep(x, u, dt, p.wheelbase);
+        case RobotMotionModel::differential: return differentialStep(x, u, dt);
+        case RobotMotionModel::arc: return arcStep(x, u);
+        default: return incrementStep(x, u);
+    }
+}
+
 /// Covariance of a pose increment [along across turn] as random walks over the distance and the turn.
 Matrix3 randomWalk(const RobotMotionParameters& p, double distance, double turn) {
     const auto square = [](double a) { return a * a; };
@@ -170,13 +179,7 @@ Vector3 moved(const RobotMotionParameters& p, const Vector3& pose, const Vector3
 
 MotionPrediction predictMotion(const RobotMotionParameters& p, const Vector3& pose, const MotionControl& control,
                                double dt) {
-    Step step;
-    switch (p.model) {
-        case RobotMotionModel::steered: step = steeredStep(pose, control.mean, dt, p.wheelbase); break;
-        case RobotMotionModel::differential: step = differentialStep(pose, control.mean, dt); break;
-        case RobotMotionModel::arc: step = arcStep(pose, control.mean); break;
-        case RobotMotionModel::increment: step = incrementStep(pose, control.mean); break;
-    }
+    Step step = stepOf(p, pose, control.mean, dt);
     step.pose.z() = wrapAngle(step.pose.z());
     return {step.pose, step.F, step.G * control.covariance * step.G.transpose()};
 }
