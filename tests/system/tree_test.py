@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     "study": {"core", "rawlog", "sim", "eval", "run", "report"},
 }
 # Estimation itself: Eigen and the standard library only.
-WITHOUT_MRPT = ["models", "estimation", "association"]
+WITHOUT_MRPT = ["models", "estimation", "association", "particles", "threads"]
 # Folders of one machine. Put together so that this file does not trip over itself.
 MACHINE_PATHS = ["/" + "work/", "/" + "tmp/wt", "/" + "home/", "/" + "root/"]
 
