@@ -49,12 +49,10 @@ bool ParticleWeights::multiply(const std::vector<double>& log_factors) {
 void ParticleWeights::normalise() {
     const double largest = *std::max_element(log_weights_.begin(), log_weights_.end());
     double sum = 0;
-    for (const double w : log_weights_) sum += std::exp(w - largest);
-    const double log_sum = largest + std::log(sum);
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-        log_weights_[i] -= log_sum;
-        weights_[i] = std::exp(log_weights_[i]);
-    }
+    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] = std::exp(log_weights_[i] -= largest);
+    const double log_sum = std::log(sum);
+    for (double& w : weights_) w /= sum;
+    for (double& w : log_weights_) w -= log_sum;
 }
 
 double ParticleWeights::effectiveCount() const {

@@ -1,0 +1,193 @@
+#include "slamot/core/particles/LandmarkFilters.h"
+
+#include <Eigen/LU>
+
+#include "support/Expect.h"
+#include "support/Scenes.h"
+
+namespace slamot {
+namespace {
+
+using test::detectionsAt;
+using test::seen;
+
+/// One sensor of 20 m all around.
+DetectionSet scanAt(double t, std::vector<RangeBearingDetection> detections) {
+    DetectionSet set = detectionsAt(t, std::move(detections));
+    RangeBearingSensor& sensor = std::get<RangeBearingSet>(set.measurements).sensors.front();
+    sensor.label = "landmarks";
+    sensor.kind = ObjectKind::landmark;
+    sensor.max_range = 20;
+    return set;
+}
+
+RangeBearingDetection nameless(const Vector2& point) {
+    return seen({}, point, ObjectKind::landmark, -1);
+}
+
+LandmarkFilterParameters parameters() {
+    LandmarkFilterParameters out;
+    out.life.detection_probability = 0.8;
+    out.life.clutter_per_scan = 2;
+    out.life.new_per_scan = 0.5;
+    out.life.hidden_every = std::numeric_limits<double>::infinity();
+    return out;
+}
+
+/// One particle whose pose is the origin.
+struct Particle {
+    explicit Particle(LandmarkFilterParameters p = parameters())
+        : settings(p, GaussianTransform::linear), scans(p.life, p.association != ParticleAssociation::known) {
+        map.renew(1);
+    }
+
+    double take(const DetectionSet& set) {
+        const ParticleScan scan = scans.scan(set);
+        map.pairUp(settings, PoseBelief{}, scan, work, records);
+        return map.update(settings, Vector3::Zero(), scan, work, records);
+    }
+    std::vector<LandmarkFilter> all() const {
+        std::vector<LandmarkFilter> out;
+        map.landmarks().forEach([&](const LandmarkFilter& landmark) { out.push_back(landmark); });
+        return out;
+    }
+
+    LandmarkFilters::Settings settings;
+    ScanMaker scans;
+    LandmarkFilters map;
+    LandmarkFilters::Work work;
+    std::vector<SightRecord> records;
+};
+
+TEST(LandmarkFiltersTest, NamedLandmarksWeighByTheirInnovationAlone) {
+    Particle particle;
+    EXPECT_EQ(particle.take(scanAt(0, {seen({}, {5, 0}, ObjectKind::landmark, 7)})), 0);
+    EXPECT_EQ(particle.records.at(0).outcome, Outcome::initiated);
+    // Covariance at first sight: diag(0.01, 25 * 0.0004) = 0.01 I. Again, 0.1 m farther: S = diag(0.02, 0.0008).
+    const double log_likelihood = particle.take(scanAt(1, {seen({}, {5.1, 0}, ObjectKind::landmark, 7)}));
+    EXPECT_NEAR(log_likelihood, -0.5 * 0.01 / 0.02 - 0.5 * std::log(0.02 * 0.0008) - std::log(2 * pi), 1e-12);
+    const LandmarkFilter landmark = particle.all().at(0);
+    EXPECT_TRUE(test::near(landmark.point.mean, Vector2(5.05, 0), 1e-14));
+    EXPECT_TRUE(test::near(landmark.point.covariance, Matrix2(0.005 * Matrix2::Identity()), 1e-14));
+    EXPECT_EQ(landmark.seen, 2);
+    // Not seen: a name vouches for it.
+    EXPECT_EQ(particle.take(scanAt(2, {})), 0);
+    EXPECT_EQ(particle.all().size(), 1u);
+}
+
+TEST(LandmarkFiltersTest, TheSameNewNameTwiceInABatchStartsOneLandmark) {
+    Particle particle;
+    particle.take(scanAt(0, {seen({}, {5, 0}, ObjectKind::landmark, 7), seen({}, {6, 0}, ObjectKind::landmark, 7)}));
+    EXPECT_EQ(particle.all().size(), 1u);
+    particle.take(scanAt(1, {seen({}, {5, 0}, ObjectKind::landmark, 7)}));
+    EXPECT_EQ(particle.all().size(), 1u);
+}
+
+// The weights of a nameless landmark, by hand: c = 2.5 / (20 * 2 pi), r = 0.5 / 2.5 at first sight.
+TEST(LandmarkFiltersTest, NamelessLandmarksWeighByExistence) {
+    const double c = 2.5 / (20 * 2 * pi), p_d = 0.8;
+    Particle particle;
+    EXPECT_NEAR(particle.take(scanAt(0, {nameless({5, 0})})), std::log(c), 1e-12);
+    double r = 0.2;
+    EXPECT_NEAR(particle.all().at(0).existence.probability(), r, 1e-12);
+
+    const double N = 1 / (2 * pi * std::sqrt(0.02 * 0.0008));
+    EXPECT_NEAR(particle.take(scanAt(1, {nameless({5, 0})})), std::log(c * (1 - r) + r * p_d * N), 1e-9);
+    r = r * p_d * N / (r * p_d * N + (1 - r) * c);
+    EXPECT_NEAR(particle.all().at(0).existence.probability(), r, 1e-9);
+
+    EXPECT_NEAR(particle.take(scanAt(2, {})), std::log(1 - r * p_d), 1e-9);
+    r = r * (1 - p_d) / (1 - r * p_d);
+    EXPECT_NEAR(particle.all().at(0).existence.probability(), r, 1e-9);
+
+    // Looked for again and again and never there: gone.
+    for (int k = 3; k < 20; ++k) particle.take(scanAt(k, {}));
+    EXPECT_TRUE(particle.all().empty());
+}
+
+TEST(LandmarkFiltersTest, OnlyLooksThatWouldShowALandmarkSpeakAgainstIt) {
+    Particle particle;
+    for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0})}));
+    const double before = particle.all().at(0).existence.probability();
+    DetectionSet behind = scanAt(5, {});
+    std::get<RangeBearingSet>(behind.measurements).sensors.front().field_of_view = pi;
+    std::get<RangeBearingSet>(behind.measurements).sensors.front().pose.theta = pi;
+    EXPECT_EQ(particle.take(behind), 0);
+    EXPECT_EQ(particle.all().at(0).existence.probability(), before);
+}
+
+TEST(LandmarkFiltersTest, OneDetectionForEachLandmarkAndTheLikeliestPairFirst) {
+    for (const ParticleAssociation method : {ParticleAssociation::nearest, ParticleAssociation::likelihood}) {
+        LandmarkFilterParameters p = parameters();
+        p.association = method;
+        Particle particle(p);
+        for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5, 1})}));
+        ASSERT_EQ(particle.all().size(), 2u);
+        // The second detection lies half-way, outside the gates: it starts nothing, since it may be of the second
+        // landmark, which is not seen otherwise.
+        particle.take(scanAt(6, {nameless({5.02, 0}), nameless({5.0, 0.5})}));
+        EXPECT_EQ(particle.records.at(0).landmark, particle.all().at(0).id);
+        EXPECT_EQ(particle.all().size(), 2u) << static_cast<int>(method);
+    }
+}
+
+TEST(LandmarkFiltersTest, WhereIdentitiesAreRequiredNamelessDetectionsAreNothing) {
+    LandmarkFilterParameters p = parameters();
+    p.association = ParticleAssociation::known;
+    Particle particle(p);
+    EXPECT_EQ(particle.take(scanAt(0, {nameless({5, 0}), seen({}, {8, 0}, ObjectKind::landmark, 1)})), 0);
+    EXPECT_EQ(particle.all().size(), 1u);
+}
+
+TEST(LandmarkFiltersTest, WhatWasLeftBehindUnconfirmedIsLetGo) {
+    Particle particle;
+    particle.take(scanAt(0, {nameless({5, 0})}));
+    DetectionSet elsewhere = scanAt(0, {});
+    std::get<RangeBearingSet>(elsewhere.measurements).sensors.front().max_range = 2;
+    for (int k = 1; k <= 5; ++k) {
+        elsewhere.stamp = Stamp::fromSeconds(k);
+        particle.take(elsewhere);
+        EXPECT_EQ(particle.all().size(), 1u);
+    }
+    elsewhere.stamp = Stamp::fromSeconds(5.1);
+    particle.take(elsewhere);
+    EXPECT_TRUE(particle.all().empty());
+}
+
+// Only landmarks that exist beyond doubt correct the pose.
+TEST(LandmarkFiltersTest, TentativeLandmarksDoNotRefineThePose) {
+    const PoseBelief belief{Vector3::Zero(), 0.1 * Matrix3::Identity()};
+    Particle particle;
+    for (int k = 0; k < 4; ++k) {
+        const ParticleScan scan = particle.scans.scan(scanAt(k, {nameless({5, 0})}));
+        particle.map.pairUp(particle.settings, belief, scan, particle.work, particle.records);
+        const auto all = particle.all();
+        const bool confirmed = !all.empty() && particle.settings.parameters.life.confirm_probability <=
+                                                   all.at(0).existence.probability();
+        RefinedPose refined(belief);
+        particle.map.refine(particle.settings, scan, particle.work, refined);
+        EXPECT_EQ(refined.belief().factor == belief.factor, !confirmed) << k;
+        particle.map.update(particle.settings, Vector3::Zero(), scan, particle.work, particle.records);
+        EXPECT_EQ(confirmed, k > 1);
+    }
+}
+
+TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {
+    Particle particle;
+    for (int k = 0; k < 64; ++k) {
+        const double x = 5 + 100.0 * (k / 16);
+        DetectionSet set = scanAt(k, {seen({}, {x, 0.1 * (k % 16)}, ObjectKind::landmark, k)});
+        particle.take(set);
+    }
+    LandmarkFilters copy = particle.map;
+    copy.renew(2);
+    particle.map.renew(3);
+    EXPECT_EQ(particle.map.landmarks().bytes()[0], 0u);
+    particle.take(scanAt(100, {seen({}, {5, 0}, ObjectKind::landmark, 0), nameless({5, 5})}));
+    // The page of the landmark that was seen and the last one, where the new one is.
+    EXPECT_EQ(particle.map.landmarks().pages(), 5);
+    EXPECT_EQ(particle.map.landmarks().bytes()[0] * 5, particle.map.landmarks().bytes()[1] * 2);
+}
+
+}  // namespace
+}  // namespace slamot
