@@ -44,7 +44,7 @@ struct Particle {
     double take(const DetectionSet& set) {
         const ParticleScan scan = scans.scan(set);
         map.pairUp(settings, PoseBelief{}, scan, work, records);
-        return map.update(settings, Vector3::Zero(), scan, work, records);
+        return map.update(settings, Vector3::Zero(), false, scan, work, records);
     }
     std::vector<LandmarkFilter> all() const {
         std::vector<LandmarkFilter> out;
@@ -167,7 +167,7 @@ TEST(LandmarkFiltersTest, TentativeLandmarksDoNotRefineThePose) {
         RefinedPose refined(belief);
         particle.map.refine(particle.settings, scan, particle.work, refined);
         EXPECT_EQ(refined.belief().factor == belief.factor, !confirmed) << k;
-        particle.map.update(particle.settings, Vector3::Zero(), scan, particle.work, particle.records);
+        particle.map.update(particle.settings, Vector3::Zero(), true, scan, particle.work, particle.records);
         EXPECT_EQ(confirmed, k > 1);
     }
 }

@@ -86,7 +86,7 @@ class Transforms : public testing::TestWithParam<GaussianTransform> {};
 TEST_P(Transforms, AKnownPoseIsAPoseWithoutSpread) {
     const Scene s = scene(1, 0.05);
     const PointSight of_belief = sightOf(s.point, PoseBelief{s.pose.mean, Matrix3::Zero()}, mount, GetParam());
-    const PointSight of_pose = sightOf(s.point, s.pose.mean, mount, GetParam());
+    const PointSight of_pose = sightOf(s.point, placeOf(s.pose.mean, mount), GetParam());
     EXPECT_TRUE(test::near(of_belief.z, of_pose.z, 0));
     EXPECT_TRUE(test::near(of_belief.covariance, of_pose.covariance, 0));
     EXPECT_TRUE(of_pose.A.isZero(0));
@@ -124,7 +124,7 @@ TEST(PointSightTest, RefinementIsTheKalmanUpdateOfPoseAndPoint) {
         EXPECT_TRUE(test::near(refined.belief().covariance(), after.topLeftCorner<3, 3>(), 1e-12));
         EXPECT_TRUE(test::near(point.mean, s.point.mean + shift.tail<2>(), 1e-12));
         EXPECT_TRUE(test::near(point.covariance, after.bottomRightCorner<2, 2>(), 1e-12));
-        EXPECT_NEAR(innovation.log_likelihood,
+        EXPECT_NEAR(innovation.logLikelihood(),
                     -0.5 * (z - sight.z).dot(S.inverse() * (z - sight.z)) - 0.5 * std::log(S.determinant()) -
                         std::log(2 * pi),
                     1e-10);
@@ -167,18 +167,18 @@ TEST_P(Transforms, FirstSightLiesWhereTheDetectionPoints) {
     const Vector3 pose(1, 2, 0.5);
     const Vector2 z(8, -0.3);
     const Matrix2 R = 0.01 * noise();
-    const GaussianPoint point = firstSight(pose, z, R, mount, GetParam());
+    const GaussianPoint point = firstSight(placeOf(pose, mount), z, R, GetParam());
     const RangeBearingInverse inverse = invertRangeBearing(pose, z, mount);
     EXPECT_TRUE(test::near(point.mean, inverse.point, 1e-4));
     EXPECT_TRUE(test::near(1e3 * point.covariance, 1e3 * (inverse.G_z * R * inverse.G_z.transpose()), 1e-3));
 }
 
 TEST_P(Transforms, ManyUpdatesKeepAPointDefinite) {
-    GaussianPoint point = firstSight({0, 0, 0}, {5, 0.2}, Vector2(1, 0.1).asDiagonal(), mount, GetParam());
+    GaussianPoint point = firstSight(placeOf({0, 0, 0}, mount), {5, 0.2}, Vector2(1, 0.1).asDiagonal(), GetParam());
     RandomStream random(9, RandomPurpose::test);
     for (int k = 0; k < 20000; ++k) {
         const Vector3 pose(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-pi, pi));
-        const PointSight sight = sightOf(point, pose, mount, GetParam());
+        const PointSight sight = sightOf(point, placeOf(pose, mount), GetParam());
         update(point, sight, PointInnovation(sight, sight.z, 1e-4 * noise()));
     }
     const Eigen::LLT<Matrix2> definite(point.covariance);

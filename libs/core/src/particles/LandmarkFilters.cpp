@@ -23,27 +23,14 @@ constexpr double view_margin = 1.0;
 /// a gate in range and bearing is bent there.
 constexpr double bend = 4.0;
 
-/// Where a sight would be on the plane, and the sum of its variances there.
-struct OnPlane {
-    Vector2 point;
-    double variance;
-};
-
-OnPlane onPlane(const PoseBelief& pose, const ScanSight& sight, const Pose2& sensor) {
-    const double across = sight.z.x() * sight.z.x() * (sight.R(1, 1) + pose.factor.row(2).squaredNorm());
-    return {inverseRangeBearing<double>(pose.mean, sight.z, sensor),
-            sight.R(0, 0) + across + pose.factor.topRows<2>().squaredNorm()};
-}
-
 /// Cheap: false for what lies clearly beside the field of view.
-bool mayBeInView(const Vector3& pose, const ScanView& view, const GaussianPoint& point) {
-    const Vector2 rel = point.mean - pose.head<2>() - rotation(pose.z()) * view.sensor.pose.position();
+bool mayBeInView(const SensorPlace& place, const RangeBearingSensor& sensor, const Vector2& facing,
+                 const GaussianPoint& point) {
+    const Vector2 rel = point.mean - place.position;
     const double spread = 4 * std::sqrt(point.covariance.trace()), range = rel.norm();
-    if (range > view.sensor.max_range + spread) return false;
-    const double half = 0.5 * view.sensor.field_of_view + (range > spread ? spread / range : pi);
-    if (half >= pi) return true;
-    const double direction = pose.z() + view.sensor.pose.theta;
-    return rel.x() * std::cos(direction) + rel.y() * std::sin(direction) >= range * std::cos(half);
+    if (range > sensor.max_range + spread) return false;
+    const double half = 0.5 * sensor.field_of_view + (range > spread ? spread / range : pi);
+    return half >= pi || rel.dot(facing) >= range * std::cos(half);
 }
 
 }  // namespace
@@ -59,8 +46,10 @@ LandmarkFilters::Settings::Settings(const LandmarkFilterParameters& p, GaussianT
 
 void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
                              std::vector<SightRecord>& records) const {
+    scan.placesFrom(pose.mean, work.places);
     work.near.clear();
     work.near_of.assign(scan.sights.size(), -1);
+    work.expected.resize(scan.sights.size());
     work.may_start.assign(scan.sights.size(), false);
     if (scan.nameless) findNear(pose.mean.head<2>(), scan, work);
     pairNamed(scan, work);
@@ -71,11 +60,18 @@ void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, c
         if (work.near_of[s] < 0) continue;
         const ScanSight& sight = scan.sights[s];
         const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
-        const PointSight expected = sightOf(near.point, pose, scan.sensorOf(sight), settings.transform);
+        PointSight& expected = work.expected[s];
+        expected = expectedAt(settings, pose, scan, work, sight, near.point);
         records[s].landmark = landmarks_.at(near.place).id;
         records[s].z = expected.z;
         records[s].S = expected.covariance + sight.R;
     }
+}
+
+PointSight LandmarkFilters::expectedAt(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                                       const Work& work, const ScanSight& sight, const GaussianPoint& point) {
+    return pose.isPoint() ? sightOf(point, work.placeOf(sight), settings.transform)
+                          : sightOf(point, pose, scan.sensorOf(sight), settings.transform);
 }
 
 void LandmarkFilters::findNear(const Vector2& position, const ParticleScan& scan, Work& work) const {
@@ -106,19 +102,22 @@ void LandmarkFilters::pairNamed(const ParticleScan& scan, Work& work) const {
 void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                                    Work& work) const {
     const LandmarkFilterParameters& p = settings.parameters;
+    const Matrix2 turn = rotation(pose.mean.z());
+    const double pose_variance = pose.factor.topRows<2>().squaredNorm(), turn_variance = pose.factor.row(2).squaredNorm();
     work.candidates.clear();
     work.wide.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.named()) continue;
-        const Pose2& sensor = scan.sensorOf(sight);
-        const OnPlane at = onPlane(pose, sight, sensor);
+        const Vector2 at = pose.mean.head<2>() + turn * sight.local;
+        const double variance =
+            pose_variance + sight.R(0, 0) + sight.z.x() * sight.z.x() * (sight.R(1, 1) + turn_variance);
         for (std::size_t n = 0; n < work.near.size(); ++n) {
             const Work::Near& near = work.near[n];
-            if (near.paired) continue;
-            const double variance = at.variance + near.point.covariance.trace();
-            if ((near.point.mean - at.point).squaredNorm() > bend * settings.separation_gate * variance) continue;
-            const PointInnovation innovation(sightOf(near.point, pose, sensor, settings.transform), sight.z, sight.R);
+            const double reach = bend * settings.separation_gate * (variance + near.point.covariance.trace());
+            if (near.paired || (near.point.mean - at).squaredNorm() > reach) continue;
+            const PointInnovation innovation(expectedAt(settings, pose, scan, work, sight, near.point), sight.z,
+                                             sight.R);
             if (innovation.nis > settings.separation_gate) continue;
             Candidate pair{static_cast<int>(s), static_cast<int>(n), innovation.nis, -0.5 * innovation.nis};
             work.wide.push_back(pair);
@@ -126,8 +125,8 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             if (p.association == ParticleAssociation::likelihood) {
                 const double visible = landmarks_.at(near.place).existence.visibility();
                 pair.log_likelihood =
-                    innovation.log_likelihood + std::log(p.life.detection_probability * visible);
-                if (pair.log_likelihood <= std::log(sight.unexplained)) continue;
+                    innovation.logLikelihood() + std::log(p.life.detection_probability * visible);
+                if (pair.log_likelihood <= sight.log_unexplained) continue;
             }
             work.candidates.push_back(pair);
         }
@@ -164,61 +163,64 @@ void LandmarkFilters::refine(const Settings& settings, const ParticleScan& scan,
     }
 }
 
-double LandmarkFilters::update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
-                               std::vector<SightRecord>& records) {
+double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
+                               Work& work, std::vector<SightRecord>& records) {
+    if (drawn) scan.placesFrom(pose, work.places);
     double log_likelihood = 0;
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
-        if (!sight.named()) log_likelihood += std::log(sight.unexplained);
+        if (!sight.named()) log_likelihood += sight.log_unexplained;
         if (work.near_of[s] < 0) continue;
-        const Place place = work.near[static_cast<std::size_t>(work.near_of[s])].place;
-        records[s].outcome = landmarks_.at(place).existence.confirmed(settings.parameters.life)
-                                 ? Outcome::updated
-                                 : Outcome::tentative;
-        log_likelihood += detected(settings, pose, scan, sight, place);
+        const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
+        if (drawn) work.expected[s] = sightOf(near.point, work.placeOf(sight), settings.transform);
+        records[s].outcome = isConfirmed(settings, landmarks_.at(near.place)) ? Outcome::updated : Outcome::tentative;
+        log_likelihood += detected(settings, work.expected[s], sight, scan.now, near.place);
     }
-    if (scan.nameless) log_likelihood += missed(settings, pose, scan, work);
+    if (scan.nameless) log_likelihood += missed(settings, scan, work);
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
         if (!work.may_start[s]) continue;
-        start(settings, pose, scan, scan.sights[s]);
-        records[s].landmark = scan.sights[s].birth;
-        records[s].outcome = scan.sights[s].named() ? Outcome::initiated : Outcome::tentative;
+        start(settings, work.placeOf(sight), sight, scan.now);
+        records[s].landmark = sight.birth;
+        records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
     }
     if (scan.nameless) letGo(settings, scan.now, work);
     return log_likelihood;
 }
 
-double LandmarkFilters::detected(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
-                                 const ScanSight& sight, Place place) {
+double LandmarkFilters::detected(const Settings& settings, const PointSight& expected, const ScanSight& sight,
+                                 Stamp now, Place place) {
     const LifeParameters& life = settings.parameters.life;
     LandmarkFilter& landmark = landmarks_.write(place);
-    const PointSight expected = sightOf(landmark.point, pose, scan.sensorOf(sight), settings.transform);
     const PointInnovation innovation(expected, sight.z, sight.R);
     slamot::update(landmark.point, expected, innovation);
     landmarks_.moved(place);
     ++landmark.seen;
-    landmark.last_seen = scan.now;
-    if (sight.named()) return innovation.log_likelihood;
+    landmark.last_seen = now;
+    if (sight.named()) return innovation.logLikelihood();
 
     // The landmark is visible and detected, or the detection is of something else.
-    landmark.existence.pass(secondsBetween(landmark.looked, scan.now), life);
-    landmark.looked = scan.now;
+    landmark.existence.pass(secondsBetween(landmark.looked, now), life);
+    landmark.looked = now;
     const double ratio =
-        life.detection_probability * std::exp(innovation.log_likelihood) / sight.unexplained;
+        life.detection_probability * std::exp(innovation.logLikelihood() - sight.log_unexplained);
     const double visible = landmark.existence.visibility();
     landmark.existence.detected(ratio);
     return std::log(visible * ratio + 1 - visible);
 }
 
-double LandmarkFilters::missed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work) {
+double LandmarkFilters::missed(const Settings& settings, const ParticleScan& scan, Work& work) {
     const LifeParameters& life = settings.parameters.life;
     double log_likelihood = 0;
     work.lost.clear();
-    for (const ScanView& view : scan.views) {
+    for (std::size_t v = 0; v < scan.views.size(); ++v) {
+        const ScanView& view = scan.views[v];
         if (!view.nameless) continue;
+        const SensorPlace& sensor = work.places[v];
+        const Vector2 facing(std::cos(sensor.heading), std::sin(sensor.heading));
         for (const Work::Near& near : work.near) {
-            if (near.paired || near.named || !mayBeInView(pose, view, near.point)) continue;
-            const PointSight expected = sightOf(near.point, pose, view.sensor.pose, GaussianTransform::linear);
+            if (near.paired || near.named || !mayBeInView(sensor, view.sensor, facing, near.point)) continue;
+            const PointSight expected = sightOf(near.point, sensor, GaussianTransform::linear);
             const double seen = life.detection_probability *
                                 probabilityInView(view.sensor, {expected.z, expected.covariance});
             if (seen < 1e-3) continue;
@@ -236,14 +238,13 @@ double LandmarkFilters::missed(const Settings& settings, const Vector3& pose, co
 // --- what comes and goes
 // ---------------------------------------------------------------------------------------------------
 
-void LandmarkFilters::start(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
-                            const ScanSight& sight) {
+void LandmarkFilters::start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now) {
     LandmarkFilter landmark;
     landmark.id = sight.birth;
-    landmark.point = firstSight(pose, sight.z, sight.R, scan.sensorOf(sight), settings.transform);
+    landmark.point = firstSight(sensor, sight.z, sight.R, settings.transform);
     landmark.source = sight.source;
     if (!sight.named()) landmark.existence = Existence(settings.parameters.life);
-    landmark.first_seen = landmark.last_seen = landmark.looked = scan.now;
+    landmark.first_seen = landmark.last_seen = landmark.looked = now;
     landmarks_.append(landmark);
 }
 

@@ -1,6 +1,7 @@
 #include "slamot/core/particles/ParticleScan.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slamot/core/objects/FieldOfView.h"
 #include "slamot/core/objects/TentativeObjects.h"
@@ -24,7 +25,8 @@ ParticleScan ScanMaker::scan(const DetectionSet& set) {
         ScanView& view = out.views[static_cast<std::size_t>(d.sensor)];
         // A reading beyond the stated limit comes from somewhere too.
         view.reach = std::max(view.reach, d.range + view.sensor.pose.position().norm());
-        ScanSight sight{static_cast<int>(i), d.z(), d.covariance, d.sensor, {}, {}, birth, 0};
+        const Vector2 local = inverseRangeBearing<double>(Vector3::Zero(), d.z(), view.sensor.pose);
+        ScanSight sight{static_cast<int>(i), d.z(), d.covariance, local, d.sensor, {}, {}, birth, 0};
         if (named) {
             const auto [known, is_new] = named_.try_emplace(d.source, birth);
             // Twice in its first batch: the first has started it, the second says nothing that can be used.
@@ -33,7 +35,7 @@ ParticleScan ScanMaker::scan(const DetectionSet& set) {
             if (!is_new) sight.known_as = known->second;
         } else {
             nameless_.insert(view.sensor.label);
-            sight.unexplained = unexplainedDensity(life_, view.sensor);
+            sight.log_unexplained = std::log(unexplainedDensity(life_, view.sensor));
         }
         out.sights.push_back(sight);
     }

@@ -1,7 +1,7 @@
 #include "slamot/core/particles/PointSight.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -56,26 +56,46 @@ PointSight unscentedSight(const GaussianPoint& point, const PoseBelief& pose, co
     return {sums.mean, sums.covariance, sums.with.leftCols<3>(), L * sums.with.rightCols<2>().transpose()};
 }
 
-PointSight unscentedSight(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor) {
+Vector2 seenFrom(const SensorPlace& sensor, const Vector2& point) {
+    const Vector2 rel = point - sensor.position;
+    return {rel.norm(), wrapAngle(std::atan2(rel.y(), rel.x()) - sensor.heading)};
+}
+
+Vector2 pointedAt(const SensorPlace& sensor, const Vector2& z) {
+    return sensor.position + z.x() * Vector2(std::cos(sensor.heading + z.y()), std::sin(sensor.heading + z.y()));
+}
+
+PointSight unscentedSight(const GaussianPoint& point, const SensorPlace& sensor) {
     const Matrix2 L = lowerFactor(point.covariance);
-    const Vector2 centre = seenAt(pose, point.mean, sensor);
+    const Vector2 centre = seenFrom(sensor, point.mean);
     const SigmaSums<2> sums(centre, [&](int i, double side) {
-        return rangeBearingResidual(seenAt(pose, point.mean + side * L.col(i), sensor), centre);
+        return rangeBearingResidual(seenFrom(sensor, point.mean + side * L.col(i)), centre);
     });
     return {sums.mean, sums.covariance, Eigen::Matrix<double, 2, 3>::Zero(), L * sums.with.transpose()};
 }
 
-PointSight linearSight(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor) {
-    const RangeBearingPrediction h = predictRangeBearing(pose, point.mean, sensor);
-    const Matrix2 cross = point.covariance * h.H_point.transpose();
-    return {h.z, h.H_point * cross, Eigen::Matrix<double, 2, 3>::Zero(), cross};
+PointSight linearSight(const GaussianPoint& point, const SensorPlace& sensor) {
+    const Vector2 rel = point.mean - sensor.position;
+    const double range = rel.norm(), r = std::max(range, range_floor);
+    const Vector2 along = range > 0 ? Vector2(rel / range) : Vector2::UnitX();
+    Matrix2 H;
+    H << along.x(), along.y(), -along.y() / r, along.x() / r;
+    const Matrix2 cross = point.covariance * H.transpose();
+    return {{range, wrapAngle(std::atan2(rel.y(), rel.x()) - sensor.heading)},
+            H * cross,
+            Eigen::Matrix<double, 2, 3>::Zero(),
+            cross};
 }
 
 }  // namespace
 
+SensorPlace placeOf(const Vector3& pose, const Pose2& sensor) {
+    return {pose.head<2>() + rotation(pose.z()) * sensor.position(), pose.z() + sensor.theta};
+}
+
 PointSight sightOf(const GaussianPoint& point, const PoseBelief& pose, const Pose2& sensor,
                    GaussianTransform transform) {
-    if (pose.isPoint()) return sightOf(point, pose.mean, sensor, transform);
+    if (pose.isPoint()) return sightOf(point, placeOf(pose.mean, sensor), transform);
     if (transform == GaussianTransform::unscented) return unscentedSight(point, pose, sensor);
     const RangeBearingPrediction h = predictRangeBearing(pose.mean, point.mean, sensor);
     const Eigen::Matrix<double, 2, 3> A = h.H_robot * pose.factor;
@@ -83,10 +103,8 @@ PointSight sightOf(const GaussianPoint& point, const PoseBelief& pose, const Pos
     return {h.z, A * A.transpose() + h.H_point * cross, A, cross};
 }
 
-PointSight sightOf(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor,
-                   GaussianTransform transform) {
-    return transform == GaussianTransform::unscented ? unscentedSight(point, pose, sensor)
-                                                     : linearSight(point, pose, sensor);
+PointSight sightOf(const GaussianPoint& point, const SensorPlace& sensor, GaussianTransform transform) {
+    return transform == GaussianTransform::unscented ? unscentedSight(point, sensor) : linearSight(point, sensor);
 }
 
 PointInnovation::PointInnovation(const PointSight& sight, const Vector2& z, const Matrix2& R)
@@ -96,7 +114,11 @@ PointInnovation::PointInnovation(const PointSight& sight, const Vector2& z, cons
         throw std::domain_error("innovation covariance S is not positive definite");
     S_inverse << S(1, 1) / det, -S(0, 1) / det, -S(1, 0) / det, S(0, 0) / det;
     nis = residual.dot(S_inverse * residual);
-    log_likelihood = -0.5 * (nis + std::log(det)) - std::log(2.0 * pi);
+}
+
+double PointInnovation::logLikelihood() const {
+    static const double log_2_pi = std::log(2.0 * pi);
+    return -0.5 * (nis + std::log(S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0))) - log_2_pi;
 }
 
 void update(GaussianPoint& point, const PointSight& sight, const PointInnovation& innovation) {
@@ -106,19 +128,21 @@ void update(GaussianPoint& point, const PointSight& sight, const PointInnovation
     point.covariance(0, 1) = point.covariance(1, 0) = 0.5 * (point.covariance(0, 1) + point.covariance(1, 0));
 }
 
-GaussianPoint firstSight(const Vector3& pose, const Vector2& z, const Matrix2& R, const Pose2& sensor,
+GaussianPoint firstSight(const SensorPlace& sensor, const Vector2& z, const Matrix2& R,
                          GaussianTransform transform) {
+    const Vector2 centre = pointedAt(sensor, z);
     if (transform == GaussianTransform::linear) {
-        const RangeBearingInverse inverse = invertRangeBearing(pose, z, sensor);
-        return {inverse.point, inverse.G_z * R * inverse.G_z.transpose()};
+        const Vector2 along = (centre - sensor.position) / z.x();
+        Matrix2 G;  // d point / d z
+        G << along.x(), -z.x() * along.y(), along.y(), z.x() * along.x();
+        return {centre, G * R * G.transpose()};
     }
     const Matrix2 L = lowerFactor(R);
-    const Vector2 centre = inverseRangeBearing<double>(pose, z, sensor);
     const SigmaWeights w(2);
     std::array<Vector2, 4> d;
     for (int i = 0; i < 4; ++i)
         d[static_cast<std::size_t>(i)] =
-            inverseRangeBearing<double>(pose, z + (i % 2 ? -w.reach : w.reach) * L.col(i / 2), sensor) - centre;
+            pointedAt(sensor, z + (i % 2 ? -w.reach : w.reach) * L.col(i / 2)) - centre;
     const Vector2 shift = w.other * (d[0] + d[1] + d[2] + d[3]);
     Matrix2 P = w.centre_cov * shift * shift.transpose();
     for (const Vector2& each : d) P += w.other * (each - shift) * (each - shift).transpose();

@@ -60,11 +60,17 @@ class LandmarkFilters {
             GaussianPoint point;
             bool paired, named;
         };
-        std::vector<Near> near;       ///< what may be in view
-        std::vector<int> near_of;     ///< by sight: what it is of, -1 none
-        std::vector<bool> may_start;  ///< by sight
+        std::vector<SensorPlace> places;  ///< of the sensors, by view
+        std::vector<Near> near;           ///< what may be in view
+        std::vector<int> near_of;         ///< by sight: what it is of, -1 none
+        std::vector<PointSight> expected; ///< by sight, at the predicted pose
+        std::vector<bool> may_start;      ///< by sight
         std::vector<Candidate> candidates, wide;
         std::vector<SharedPages<LandmarkFilter>::Place> lost;
+
+        const SensorPlace& placeOf(const ScanSight& sight) const {
+            return places[static_cast<std::size_t>(sight.view)];
+        }
     };
 
     void renew(std::uint64_t owner) { landmarks_.renew(owner); }
@@ -74,8 +80,8 @@ class LandmarkFilters {
                 std::vector<SightRecord>& records) const;
     /// The pose with what landmarks that exist beyond doubt say of it, sight after sight.
     void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
-    /// Takes the scan in at a known pose. Returns the log of its likelihood given the map before.
-    double update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+    /// Takes the scan in at a known pose; `drawn`: it is not the one that pairs were found at. Returns the log of its likelihood given the map before.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
                   std::vector<SightRecord>& records);
 
     const LandmarkFilter* find(LandmarkId id) const { return landmarks_.find(id); }
@@ -91,13 +97,15 @@ class LandmarkFilters {
     const SharedPages<LandmarkFilter>& landmarks() const { return landmarks_; }
 
   private:
+    static PointSight expectedAt(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                                 const Work& work, const ScanSight& sight, const GaussianPoint& point);
     void findNear(const Vector2& position, const ParticleScan& scan, Work& work) const;
     void pairNamed(const ParticleScan& scan, Work& work) const;
     void pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
-    double detected(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
+    double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight, Stamp now,
                     SharedPages<LandmarkFilter>::Place place);
-    double missed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work);
-    void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight);
+    double missed(const Settings& settings, const ParticleScan& scan, Work& work);
+    void start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now);
     void letGo(const Settings& settings, Stamp now, Work& work);
 
     SharedPages<LandmarkFilter> landmarks_;

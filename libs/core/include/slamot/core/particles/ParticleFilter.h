@@ -11,8 +11,9 @@
 //                                                  which sight is of what, at the predicted pose
 //   void refine(settings, scan, Work, RefinedPose&) const;
 //                                                  what these pairs say of the pose
-//   double update(settings, pose, scan, Work&, records&);
-//                                                  takes the scan in at a known pose; log of its likelihood
+//   double update(settings, pose, drawn, scan, Work&, records&);
+//                                                  takes the scan in at a known pose (drawn: another one than pairs were
+//                                                  found at); log of its likelihood
 //   forEachConfirmed(settings, visit(feature)), find(id), isConfirmed(settings, feature);
 //                                                  features with id, point, source, seen, stamps and
 //                                                  existenceProbability()
@@ -98,7 +99,8 @@ class ParticleFilter {
         Map& map = maps_[k];
         map.pairUp(settings_, cloud_.pose(i), scan, work, records_[k]);
         double log_ratio = 0;
-        if (!cloud_.pose(i).isPoint()) {
+        const bool drawn = !cloud_.pose(i).isPoint();
+        if (drawn) {
             RefinedPose refined(cloud_.pose(i));
             map.refine(settings_, scan, work, refined);
             RandomStream random = cloud_.proposalStream(i);
@@ -107,7 +109,7 @@ class ParticleFilter {
             log_ratio = draw.log_ratio;
         }
         log_likelihoods_[k] =
-            log_ratio + map.update(settings_, cloud_.pose(i).mean, scan, work, records_[k]);
+            log_ratio + map.update(settings_, cloud_.pose(i).mean, drawn, scan, work, records_[k]);
     }
 
     void resample() {

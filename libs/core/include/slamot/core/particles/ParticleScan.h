@@ -9,6 +9,7 @@
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/filter/SensorLimits.h"
 #include "slamot/core/objects/Existence.h"
+#include "slamot/core/particles/PointSight.h"
 
 namespace slamot {
 
@@ -17,6 +18,7 @@ struct ScanSight {
     int detection;    ///< index in the batch
     Vector2 z;        ///< [range bearing]
     Matrix2 R;        ///< its noise
+    Vector2 local;    ///< where it points to, in the robot's frame [m]
     int view;         ///< index among the scan's views
     SourceId source;  ///< valid where the log says what it is
     /// Named: the landmark's number, the same in all particles; none at its first sight, or where there is no name.
@@ -24,7 +26,7 @@ struct ScanSight {
     /// The number that what it starts has in every particle: one for each detection of a run, so that what
     /// particles started with the same detection has the same number in all of them.
     LandmarkId birth;
-    double unexplained;  ///< density [1/(m rad)] of detections that come from nothing known
+    double log_unexplained;  ///< log of the density [1/(m rad)] of detections that come from nothing known
 
     bool named() const { return source.valid(); }
 };
@@ -45,6 +47,11 @@ struct ParticleScan {
 
     const ScanView& viewOf(const ScanSight& sight) const { return views[static_cast<std::size_t>(sight.view)]; }
     const Pose2& sensorOf(const ScanSight& sight) const { return viewOf(sight).sensor.pose; }
+    /// The sensors in the world, by view.
+    void placesFrom(const Vector3& pose, std::vector<SensorPlace>& places) const {
+        places.clear();
+        for (const ScanView& view : views) places.push_back(placeOf(pose, view.sensor.pose));
+    }
 };
 
 /// Makes scans of batches, and remembers what that takes.

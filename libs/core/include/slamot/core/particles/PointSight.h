@@ -5,6 +5,13 @@
 
 namespace slamot {
 
+/// Where a sensor is and which way it looks, in the world.
+struct SensorPlace {
+    Vector2 position;  ///< [m]
+    double heading;    ///< [rad], not wrapped
+};
+SensorPlace placeOf(const Vector3& pose, const Pose2& sensor);
+
 /// A point of a map given the path of the particle that the map belongs to [m].
 struct GaussianPoint {
     Vector2 mean = Vector2::Zero();
@@ -22,26 +29,26 @@ struct PointSight {
 /// Pose and point as uncertain as they are.
 PointSight sightOf(const GaussianPoint& point, const PoseBelief& pose, const Pose2& sensor,
                    GaussianTransform transform);
-/// From a known pose: A is zero.
-PointSight sightOf(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor,
-                   GaussianTransform transform);
+/// From a known place: A is zero.
+PointSight sightOf(const GaussianPoint& point, const SensorPlace& sensor, GaussianTransform transform);
 
 /// A detection beside what was expected of it, with its noise R.
 struct PointInnovation {
     PointInnovation(const PointSight& sight, const Vector2& z, const Matrix2& R);
 
+    /// log N(residual; 0, S), 1/(m rad).
+    double logLikelihood() const;
+
     Vector2 residual;
     Matrix2 S, S_inverse;
     double nis;
-    double log_likelihood;  ///< log N(residual; 0, S), 1/(m rad)
 };
 
 /// The point given the detection (paper 4, eq. 24 to 28). Symmetric and positive definite.
 void update(GaussianPoint& point, const PointSight& sight, const PointInnovation& innovation);
 
-/// A point at first sight from a known pose (paper 4, eq. 29 to 31).
-GaussianPoint firstSight(const Vector3& pose, const Vector2& z, const Matrix2& R, const Pose2& sensor,
-                         GaussianTransform transform);
+/// A point at first sight from a known place (paper 4, eq. 29 to 31).
+GaussianPoint firstSight(const SensorPlace& sensor, const Vector2& z, const Matrix2& R, GaussianTransform transform);
 
 /// A pose belief that takes in one sight after the other, in the coordinates xi of the belief it began with.
 class RefinedPose {
