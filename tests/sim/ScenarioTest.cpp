@@ -7,6 +7,7 @@
 #include "Scenarios.h"
 #include "slamot/sim/Scenario.h"
 #include "slamot/sim/Simulation.h"
+#include "support/Expect.h"
 #include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
@@ -153,6 +154,33 @@ TEST(Scenario, AFileWorldIsFoundBesideItsScenario) {
     const std::string file = folder.write("scenario.ini", "[world]\nkind = file\nfile = landmarks.csv\n[robot]\n");
     const Scenario scenario = loadScenario(Config::fromFile(file));
     EXPECT_EQ(simulate(scenario, 1).at(0).truth.landmarks.at(SourceId{3}), Vector2(1, 2));
+}
+
+TEST(Scenario, PathsMayStandInFilesOfTheirOwn) {
+    const test::TemporaryFolder folder;
+    folder.write("way.csv", "x,y\n1,2\n3.5,-4\n");
+    const auto scenarioWith = [&](const std::string& robot, const std::string& mover) {
+        return loadScenario(
+            Config::fromFile(folder.write("scenario.ini", "[robot]\ncontroller = waypoints\n" + robot +
+                                                              "[mover.3]\nmodel = waypoint\n" + mover)));
+    };
+    const Scenario scenario = scenarioWith("path_file = way.csv\n", "path_file = way.csv\n");
+    const std::vector<Vector2> way = {{1, 2}, {3.5, -4}};
+    EXPECT_EQ(scenario.robots.at(0).path, way);
+    EXPECT_EQ(scenario.movers.at(0).path, way);
+    EXPECT_EQ(filesOf(scenario), (std::vector<std::string>{folder.path("way.csv"), folder.path("way.csv")}));
+    EXPECT_EQ(filesOf(scenarioWith("path = 0,0\n", "path = 0,0\n")), std::vector<std::string>{});
+
+    const auto said = [&](const std::string& robot) {
+        return test::messageOf<std::runtime_error>([&] { scenarioWith(robot, "path = 0,0\n"); });
+    };
+    EXPECT_THAT(said("path_file = way.csv\npath = 0,0\n"),
+                HasSubstr("scenario.ini:3: [robot] has both 'path' and 'path_file'"));
+    EXPECT_THAT(said("path_file = gone.csv\n"), HasSubstr("gone.csv"));
+    folder.write("empty.csv", "x,y\n");
+    EXPECT_THAT(said("path_file = empty.csv\n"), HasSubstr("empty.csv has no points"));
+    folder.write("bad.csv", "x,y\n1,nan\n");
+    EXPECT_THAT(said("path_file = bad.csv\n"), HasSubstr("bad.csv:2"));
 }
 
 // The tables of doc/simulator.md are scenarioReference(): print it anew when this fails.

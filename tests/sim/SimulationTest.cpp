@@ -226,7 +226,8 @@ TEST_P(Shipped, ScenarioGivesALogWithDetectionsOfEverySensor) {
 INSTANTIATE_TEST_SUITE_P(All, Shipped,
                          ::testing::Values("paper1.ini", "quiet.ini", "demo.ini", "two_robots.ini",
                                            "clutter.ini", "loop_600m.ini", "paper1_clutter.ini",
-                                           "crossing.ini", "pairs.ini"),
+                                           "crossing.ini", "pairs.ini", "paper2.ini", "paper4.ini",
+                                           "rfs_world.ini"),
                          [](const auto& instance) {
                              const std::string name = instance.param;
                              return name.substr(0, name.find('.'));

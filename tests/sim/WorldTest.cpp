@@ -117,6 +117,14 @@ TEST_F(FileWorld, TakesIdsAndPositionsFromTheTable) {
     EXPECT_EQ(world.landmarks.at(SourceId{4}), Vector2(3, 0.25));
 }
 
+TEST_F(FileWorld, IsThinnedByTheOrderOfItsRows) {
+    WorldParameters p = of("id,x,y\n9,0,0\n3,1,0\n4,2,0\n1,3,0\n");
+    p.file_every = 3;
+    const World world = makeWorld(p, 1);
+    ASSERT_EQ(world.landmarks.size(), 2u);
+    EXPECT_EQ(world.landmarks.count(SourceId{9}) + world.landmarks.count(SourceId{1}), 2u);
+}
+
 TEST_F(FileWorld, RefusesWhatIsNoLandmark) {
     EXPECT_THROW(makeWorld(of("id,x,y\n1,2,3\n1,4,5\n"), 1), LogError);
     EXPECT_THROW(makeWorld(of("id,x,y\n-1,2,3\n"), 1), LogError);

@@ -1,5 +1,7 @@
 // What a study file means, and what is wrong with bad ones.
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "StudyFolder.h"
 #include "slamot/core/random/RandomStream.h"
@@ -169,6 +171,84 @@ TEST_F(PlanTest, AMissingDatasetIsSkippedWithASentenceUnlessNothingRemains) {
     EXPECT_THAT(laid.skipped, ElementsAre(HasSubstr("source mine is skipped: there is no no_such_folder")));
     EXPECT_THAT(mistake("[study]\n" + log + "[config.c]\nfile = ekf.ini\n"),
                 HasSubstr("nothing remains to run"));
+}
+
+/// The datasets' folder of a test, put back at its end.
+class DatasetsAt {
+  public:
+    explicit DatasetsAt(const std::string& folder) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, folder.c_str(), 1);
+    }
+    ~DatasetsAt() { before_ ? setenv(name, before_->c_str(), 1) : unsetenv(name); }
+    DatasetsAt(const DatasetsAt&) = delete;
+    DatasetsAt& operator=(const DatasetsAt&) = delete;
+
+  private:
+    static constexpr const char* name = "SLAMOT_DATASETS";
+    std::optional<std::string> before_;
+};
+
+TEST_F(PlanTest, AScenarioMayTakeItsFilesFromADataset) {
+    const DatasetsAt datasets(folder.path());
+    const std::string scenario =
+        "[scenario.map]\nfile = field.ini\nfolder = map\nworld.kind = file\nworld.file = landmarks.csv\n"
+        "robot.controller = waypoints\nrobot.path_file = way.csv\n";
+    EXPECT_THAT(plan(usual("1") + scenario).skipped,
+                ElementsAre(HasSubstr("source map is skipped: there is no map in the datasets' folder")));
+    std::filesystem::create_directory(folder.path("map"));
+    folder.write("map/landmarks.csv", "id,x,y\n0,4,1\n");
+    folder.write("map/way.csv", "x,y\n9,0\n");
+    const std::string study = "[study]\nreplicates = 1\n" + scenario + "[config.c]\nfile = ekf.ini\n";
+    const Plan laid = plan(study);
+    EXPECT_THAT(laid.skipped, testing::IsEmpty());
+    const std::vector<Row> rows = run(laid);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].metrics.at("counts.landmarks"), 1);
+    // What the files hold tells runs apart, where they lie does not.
+    const std::set<std::string> keys = keysOf(laid);
+    std::filesystem::create_directory(folder.path("elsewhere"));
+    std::filesystem::rename(folder.path("map"), folder.path("elsewhere/map"));
+    const DatasetsAt moved(folder.path("elsewhere"));
+    EXPECT_EQ(keysOf(plan(study)), keys);
+    folder.write("elsewhere/map/way.csv", "x,y\n9,1\n");
+    EXPECT_NE(keysOf(plan(study)), keys);
+}
+
+TEST_F(PlanTest, WhatASourceTellsHoldsForEveryConfigThatDoesNotSayOtherwise) {
+    const std::string
+        begin =
+            "[study]\nreplicates = 1\n[scenario.a]\nfile = field.ini\nconfig = ekf.ini\n[scenario.b]\n"
+            "file = field.ini\nconfig = ekf.ini\n",
+        configs =
+            "[config.file]\nfile = ekf.ini\n[config.own]\n[config.firm]\nfile = ekf.ini\n"
+            "motion.speed_std = 0.3\n";
+    const Plan laid = plan(begin + "[told.b]\nmotion.speed_std = 0.2\n" + configs);
+    const auto told = [&](std::size_t world, std::size_t run) {
+        const Config::Section& motion =
+            laid.configs[laid.runsOf(laid.worlds[world])[run].config].config.section("motion");
+        const auto found = motion.find("speed_std");
+        return found == motion.end() ? "" : found->second.value;
+    };
+    ASSERT_EQ(laid.worlds.size(), 2u);
+    for (std::size_t world = 0; world < 2; ++world) ASSERT_EQ(laid.runsOf(laid.worlds[world]).size(), 3u);
+    EXPECT_THAT((std::vector<std::string>{told(0, 0), told(0, 1), told(0, 2)}), ElementsAre("", "", "0.3"));
+    EXPECT_THAT((std::vector<std::string>{told(1, 0), told(1, 1), told(1, 2)}),
+                ElementsAre("0.2", "0.2", "0.3"));
+    // Runs elsewhere are the ones they would be without it.
+    const Plan without = plan(begin + configs);
+    for (std::size_t run = 0; run < 3; ++run)
+        EXPECT_EQ(laid.keyOf(laid.worlds[0], laid.runsOf(laid.worlds[0])[run]),
+                  without.keyOf(without.worlds[0], without.runsOf(without.worlds[0])[run]));
+
+    EXPECT_THAT(mistake(begin + "[told.c]\nmotion.speed_std = 0.2\n" + configs),
+                HasSubstr("small.ini:9: [told.c] is about no source"));
+    EXPECT_THAT(mistake(begin + "[told.b]\nspeed_std = 0.2\n" + configs),
+                HasSubstr("small.ini:10: unknown key 'speed_std' in [told.b], expected section.key"));
+    EXPECT_THAT(mistake(begin + "[told.b]\nmotion.sped_std = 0.2\n" + configs), HasSubstr("small.ini:10"));
+    EXPECT_THAT(mistake(begin + "[told.b]\nmotion.speed_std = 0.2\n" + configs +
+                        "[grid]\nmotion.speed_std = 1 | 2\n"),
+                HasSubstr("is a key of [grid] too"));
 }
 
 TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {

@@ -13,6 +13,9 @@ constexpr Interval any_finite{-huge, huge};
 constexpr Interval from_zero{0, huge};
 constexpr Interval above_zero{0, huge, true, false};
 
+constexpr const char* path_file_help =
+    "a CSV with columns x,y to read the path from instead, relative to the scenario's folder.";
+
 }  // namespace
 
 ParameterTable describe(Scenario& s) {
@@ -41,6 +44,9 @@ ParameterTable describe(WorldParameters& w) {
     t.real("side_jitter", w.side_jitter, "m", from_zero,
            "loop: landmarks are moved by up to this, uniformly, along and across.");
     t.text("file", w.file, "file: path, relative to the scenario's folder.");
+    t.integer(
+        "file_every", w.file_every, {1, max_count},
+        "file: one of so many landmarks is there, by their order in the file, the first to begin with.");
     return t;
 }
 
@@ -75,6 +81,7 @@ ParameterTable describe(MoverParameters& m) {
     t.real("unicycle_turn_rate_jitter_deg", m.unicycle_turn_rate_jitter, "deg/s", from_zero,
            "unicycle: noise on the turn rate, independent from step to step (paper 2).");
     addPath(t, "path", m.path, "waypoint: the points to visit.");
+    t.text("path_file", m.path_file, path_file_help);
     t.integer("loops", m.loops, {0, max_count}, "waypoint: how often the path is driven; 0 for ever.");
     t.real("speed", m.speed, "m/s", from_zero, "waypoint: pace.");
     t.real("max_turn_rate_deg", m.max_turn_rate, "deg/s", above_zero, "waypoint: fastest turn.");
@@ -128,6 +135,7 @@ ParameterTable describe(RobotParameters& r) {
     t.real("max_steering_deg", r.max_steering, "deg", {0, 90, true, true},
            "waypoints, pursuit: limit either side.");
     addPath(t, "path", r.path, "waypoints: the points to visit; none: the centre line of a loop world.");
+    t.text("path_file", r.path_file, path_file_help);
     t.integer("loops", r.loops, {0, max_count}, "waypoints: how often the path is driven; 0 for ever.");
     t.real("reach_distance", r.reach_distance, "m", above_zero, "waypoints: a point this near is reached.");
     addId(t, "target", r.target, "pursuit: id of the mover; while it is not there the robot stands.");

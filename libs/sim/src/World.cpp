@@ -83,7 +83,8 @@ World fileWorld(const WorldParameters& p) {
     CsvReader table(p.file);
     const int id = table.column("id"), x = table.column("x"), y = table.column("y");
     World world;
-    while (table.next()) {
+    for (int row = 0; table.next(); ++row) {
+        if (row % p.file_every != 0) continue;
         const SourceId landmark{table.integer(id)};
         const Vector2 position(table.number(x), table.number(y));
         if (!landmark.valid()) table.fail(id, "an id of 0 or more");

@@ -93,17 +93,22 @@ fs::path imported(const Importer& importer, const fs::path& data, const Source& 
 
 }  // namespace
 
+FoundFolder findDataset(const StudyFile& study, const Source& source, const std::string& name) {
+    const fs::path folder = datasetsFolder(study) / name;
+    if (fs::is_directory(folder)) return {folder.string(), {}};
+    return {{},
+            fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name, name,
+                        std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
+}
+
 FoundLogs findLogs(const StudyFile& study, const Source& source, const std::string& work_folder) try {
     const LogSourceFiles& wanted = *source.log;
     const Importer* importer = wanted.importer.empty() ? nullptr : &importerOf(study, source);
     fs::path folder = study.text.folder();
     if (!wanted.folder.empty()) {
-        folder = datasetsFolder(study) / wanted.folder;
-        if (!fs::is_directory(folder))
-            return {{},
-                    fmt::format("source {} is skipped: there is no {} in the datasets' folder{}", source.name,
-                                wanted.folder,
-                                std::getenv("SLAMOT_DATASETS") ? "" : " (SLAMOT_DATASETS is not set)")};
+        const FoundFolder found = findDataset(study, source, wanted.folder);
+        if (!found.why_none.empty()) return {{}, found.why_none};
+        folder = found.folder;
         if (importer) folder = imported(*importer, folder, source, work_folder);
     }
     const std::vector<std::string> files = matching(folder / wanted.files);

@@ -6,6 +6,14 @@
 
 namespace slamot::study {
 
+struct FoundFolder {
+    std::string folder;
+    std::string why_none;  ///< a sentence, when it is not there
+};
+
+/// The folder of a source's dataset, by its name in SLAMOT_DATASETS.
+FoundFolder findDataset(const StudyFile& study, const Source& source, const std::string& name);
+
 struct FoundLogs {
     std::vector<std::string> files;
     std::string why_none;  ///< a sentence, when the dataset is not there

@@ -50,21 +50,30 @@ PlannedConfig plannedConfig(const StudyFile& study, std::size_t variant, std::si
     return planned;
 }
 
-/// A variant with a file of its own is one config, otherwise one for each source it runs on.
+/// A variant with a file of its own is one config, unless sources it runs on tell it something; otherwise one
+/// for each source it runs on.
 std::vector<PlannedConfig> plannedConfigs(const StudyFile& study, std::size_t variant, std::size_t point,
                                           const PluginRegistry& registry) {
     const Variant& wanted = study.variants[variant];
-    if (wanted.file) return {plannedConfig(study, variant, point, *wanted.file, registry)};
+    const bool told = std::any_of(study.sources.begin(), study.sources.end(), [&](const Source& source) {
+        return runsOn(wanted, source) && !source.told.sectionNames().empty();
+    });
+    if (wanted.file && !told) return {plannedConfig(study, variant, point, *wanted.file, registry)};
     std::vector<PlannedConfig> configs;
-    for (std::size_t source = 0; source < study.sources.size(); ++source) {
-        if (!runsOn(wanted, study.sources[source])) continue;
-        configs.push_back(plannedConfig(study, variant, point, *study.sources[source].config, registry));
-        configs.back().source = source;
+    for (std::size_t i = 0; i < study.sources.size(); ++i) {
+        const Source& source = study.sources[i];
+        if (!runsOn(wanted, source)) continue;
+        configs.push_back(
+            plannedConfig(study, variant, point,
+                          withOverrides(wanted.file ? *wanted.file : *source.config, source.told), registry));
+        configs.back().source = i;
     }
     return configs;
 }
 
-std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t source) {
+/// `folder`: where the files that the scenario names lie, if not beside it.
+std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t source,
+                                            const std::string& folder) {
     std::vector<PlannedWorldKind> kinds;
     for (std::size_t point = 0; point < study.scenario_grid.size(); ++point) {
         PlannedWorldKind kind;
@@ -72,6 +81,7 @@ std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t 
         kind.scenario_point = point;
         const ScenarioSource& wanted = *study.sources[source].scenario;
         kind.scenario = at(study.scenario_grid[point], wanted.scenario, "grid.scenario", study.text);
+        if (!folder.empty()) kind.scenario->setFolder(folder);
         const sim::Scenario scenario = sim::loadScenario(*kind.scenario);
         const bool has_robot = std::any_of(scenario.robots.begin(), scenario.robots.end(),
                                            [&](const auto& robot) { return robot.number == wanted.robot; });
@@ -79,9 +89,10 @@ std::vector<PlannedWorldKind> scenarioKinds(const StudyFile& study, std::size_t 
             throw ConfigError(fmt::format("{}: [scenario.{}] has no robot {}, expected one of the scenario's",
                                           study.text.origin("scenario." + study.sources[source].name),
                                           study.sources[source].name, wanted.robot));
-        const std::string landmarks = scenario.world.file.empty() ? "" : sha256OfFile(scenario.world.file);
-        kind.digest = digestOf({study.sources[source].name, kind.scenario->canonicalText(),
-                                std::to_string(wanted.robot), landmarks});
+        std::vector<std::string> made_from = {study.sources[source].name, kind.scenario->canonicalText(),
+                                              std::to_string(wanted.robot)};
+        for (const std::string& file : sim::filesOf(scenario)) made_from.push_back(sha256OfFile(file));
+        kind.digest = digestOf(made_from);
         kinds.push_back(std::move(kind));
     }
     return kinds;
@@ -200,9 +211,16 @@ Plan layOut(StudyFile study, const PlanRequest& request, const PluginRegistry& r
     std::vector<std::size_t> scenario_kinds;
     for (std::size_t source = 0; source < file.sources.size(); ++source) {
         if (!file.sources[source].scenario) continue;
+        const std::string& dataset = file.sources[source].scenario->folder;
+        const FoundFolder found =
+            dataset.empty() ? FoundFolder{} : findDataset(file, file.sources[source], dataset);
+        if (!found.why_none.empty()) {
+            plan.skipped.push_back(found.why_none);
+            continue;
+        }
         for (PlannedWorldKind& kind :
              inFile(fmt::format("{}: [scenario.{}]", file.path, file.sources[source].name),
-                    [&] { return scenarioKinds(file, source); })) {
+                    [&] { return scenarioKinds(file, source, found.folder); })) {
             scenario_kinds.push_back(plan.kinds.size());
             kind.runs = runsIn(plan, source);
             plan.kinds.push_back(std::move(kind));

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string scenario_prefix = "scenario.", log_prefix = "log.", config_prefix = "config.";
+const std::string scenario_prefix = "scenario.", log_prefix = "log.", told_prefix = "told.",
+                  config_prefix = "config.";
 /// Sections of Analysis, which reads them itself.
 const std::vector<std::string> analysis_prefixes = {"table.", "figure.", "check."};
 
@@ -88,9 +89,10 @@ class SourceSection {
             if (std::find(known.begin(), known.end(), setting.key) == known.end()) {
                 const auto near = nearestWord(setting.key, known);
                 fail(setting.origin,
-                     fmt::format("unknown key '{}' in [{}]{}, expected {}{}", setting.key, name_,
-                                 near ? "; did you mean '" + *near + "'?" : "", fmt::join(known, ", "),
-                                 overrides ? " or section.key of the file" : ""));
+                     fmt::format(
+                         "unknown key '{}' in [{}]{}, expected {}{}", setting.key, name_,
+                         near ? "; did you mean '" + *near + "'?" : "", fmt::join(known, ", "),
+                         overrides ? (known.empty() ? "section.key" : " or section.key of the file") : ""));
             }
             own_.push_back(setting);
         }
@@ -156,14 +158,14 @@ void readInteger(const SourceSection& section, const std::string& key, Interval 
 }
 
 Source readScenario(const Config& text, const std::string& name) {
-    const SourceSection section(text, scenario_prefix + name, {"file", "robot", "config"}, true);
+    const SourceSection section(text, scenario_prefix + name, {"file", "folder", "robot", "config"}, true);
     std::optional<Config> file = section.file("file", "a scenario");
     if (!file)
         fail(text.origin(scenario_prefix + name),
              fmt::format("[{}{}] has no 'file', expected a scenario", scenario_prefix, name));
-    ScenarioSource source{withOverrides(*std::move(file), section.overrides()), 0};
+    ScenarioSource source{withOverrides(*std::move(file), section.overrides()), 0, section.value("folder")};
     readInteger(section, "robot", Interval::between(0, 999999), source.robot);
-    return {name, std::move(source), std::nullopt, section.file("config", "a run's config")};
+    return {name, std::move(source), std::nullopt, section.file("config", "a run's config"), {}};
 }
 
 Source readLog(const Config& text, const std::string& name) {
@@ -177,7 +179,7 @@ Source readLog(const Config& text, const std::string& name) {
     if (!source.importer.empty() && source.folder.empty())
         fail(text.origin(place),
              fmt::format("[{}] has no 'folder', expected the dataset's folder in SLAMOT_DATASETS", place));
-    return {name, std::nullopt, std::move(source), section.file("config", "a run's config")};
+    return {name, std::nullopt, std::move(source), section.file("config", "a run's config"), {}};
 }
 
 Variant readVariant(const Config& text, const std::string& name, const std::vector<Source>& sources) {
@@ -253,6 +255,19 @@ std::vector<Source> readSources(const Config& text) {
     return sources;
 }
 
+void readTold(const Config& text, std::vector<Source>& sources) {
+    for (const std::string& name : namesAfter(text, told_prefix)) {
+        const auto source =
+            std::find_if(sources.begin(), sources.end(), [&](const Source& s) { return s.name == name; });
+        if (source == sources.end())
+            fail(
+                text.origin(told_prefix + name),
+                fmt::format("[{}{}] is about no source, expected the name of a [scenario.NAME] or [log.NAME]",
+                            told_prefix, name));
+        source->told = SourceSection(text, told_prefix + name, {}, true).overrides();
+    }
+}
+
 }  // namespace
 
 bool runsOn(const Variant& variant, const Source& source) {
@@ -273,12 +288,13 @@ StudyFile loadStudy(const std::string& path) {
     study.name = fs::path(path).stem().string();
     study.text = Config::fromFile(path);
     const Config& text = study.text;
-    std::vector<std::string> open = {scenario_prefix, log_prefix, config_prefix};
+    std::vector<std::string> open = {scenario_prefix, log_prefix, told_prefix, config_prefix};
     open.insert(open.end(), analysis_prefixes.begin(), analysis_prefixes.end());
     requireKnownSections(text, {"study", "labels", "units", "grid", "grid.scenario"}, open);
     if (!text.has("study")) fail(path, "has no section [study], expected a study file");
     readStudySection(text, study.parameters);
     study.sources = readSources(text);
+    readTold(text, study.sources);
     if (study.sources.empty()) fail(path, "has no worlds, expected [scenario.NAME] or [log.NAME]");
     for (const std::string& name : namesAfter(text, config_prefix))
         study.variants.push_back(readVariant(text, name, study.sources));
@@ -286,6 +302,7 @@ StudyFile loadStudy(const std::string& path) {
     study.config_grid = readGrid(text, "grid");
     study.scenario_grid = readGrid(text, "grid.scenario");
     requireKeysOutsideGrid(text, "grid", config_prefix);
+    requireKeysOutsideGrid(text, "grid", told_prefix);
     requireKeysOutsideGrid(text, "grid.scenario", scenario_prefix);
     const bool simulates = std::any_of(study.sources.begin(), study.sources.end(),
                                        [](const Source& s) { return s.scenario.has_value(); });

@@ -44,6 +44,7 @@ struct WorldParameters {
     double side_offset = 5;               ///< [m] loop: of the landmarks from the centre line, either side
     double side_jitter = 1;               ///< [m] loop: uniform, plus or minus, along and across
     std::string file;                     ///< file: CSV with id,x,y; relative to the scenario's folder
+    int file_every = 1;                   ///< file: one of so many rows is there, the first of all
 };
 
 enum class MoverModel { cv, ca, ct, unicycle, schedule, waypoint };
@@ -72,6 +73,7 @@ struct MoverParameters {
     double unicycle_turn_rate_jitter = 0;        ///< [rad/s] independent from step to step (paper 2)
     // Waypoint movers.
     std::vector<Vector2> path;
+    std::string path_file;               ///< CSV with x,y that loadScenario read `path` from; or empty
     int loops = 0;                       ///< 0: for ever
     double speed = 1;                    ///< [m/s]
     double max_turn_rate = radians(60);  ///< [rad/s]
@@ -108,6 +110,7 @@ struct RobotParameters {
     double turn_rate = 0;               ///< [rad/s] constant; differential and arc robots
     double max_steering = radians(30);  ///< [rad] waypoints, pursuit
     std::vector<Vector2> path;          ///< waypoints; empty: the loop world's centre line
+    std::string path_file;              ///< CSV with x,y that loadScenario read `path` from; or empty
     int loops = 1;                      ///< waypoints; 0: for ever
     double reach_distance = 2;          ///< [m] waypoints
     SourceId target{0};                 ///< pursuit
@@ -167,8 +170,12 @@ ParameterTable describe(MoverParameters& mover);
 ParameterTable describe(RobotParameters& robot);
 ParameterTable describe(SensorParameters& sensor);
 
-/// Reads and checks a scenario. Throws ConfigError.
+/// Reads and checks a scenario, the paths of its path files included. Throws ConfigError; LogError for a bad
+/// path file.
 Scenario loadScenario(const Config& config);
+
+/// Files that a loaded scenario is made from besides its own: landmarks and paths.
+std::vector<std::string> filesOf(const Scenario& scenario);
 
 /// Throws ConfigError, one sentence, for a scenario that cannot be simulated.
 void requirePossible(const Scenario& scenario);

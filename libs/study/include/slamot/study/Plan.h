@@ -30,6 +30,8 @@ struct StudyParameters {
 struct ScenarioSource {
     Config scenario;  ///< overrides applied
     int robot = 0;    ///< the log taken, where there are several
+    /// Of SLAMOT_DATASETS: where files that the scenario names lie; empty: beside the scenario.
+    std::string folder;
 };
 
 /// Section `[log.NAME]`: recorded logs, each one world or, with replicates, several.
@@ -47,6 +49,8 @@ struct Source {
     std::optional<LogSourceFiles> log;
     /// Of the world's own: where the variants that name no file begin.
     std::optional<Config> config;
+    /// Section `[told.NAME]`: what runs on it are told, whatever config they begin with.
+    Config told;
 };
 
 /// Section `[config.NAME]`: one side of a comparison.

@@ -47,8 +47,9 @@ class Config {
     std::string origin(const std::string& section) const;
     /// As INI text, sections and keys sorted: equal configs give equal text (run hashes are made from it).
     std::string canonicalText() const;
-    /// Folder that relative paths in this config refer to.
+    /// Folder that relative paths in this config refer to: its file's, unless it was set.
     const std::string& folder() const { return folder_; }
+    void setFolder(const std::string& folder) { folder_ = folder; }
 
    private:
     std::map<std::string, Section> sections_;
