@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <map>
 
+#include "BenchPage.h"
 #include "Machine.h"
 #include "MapSizeChecks.h"
 #include "MapSizeReport.h"
-#include "slamot/core/Version.h"
 #include "slamot/core/config/Config.h"
-#include "slamot/rawlog/PartFile.h"
-#include "slamot/report/FigureWriter.h"
-#include "slamot/study/Page.h"
 
 namespace slamot::bench {
 namespace {
@@ -113,10 +109,8 @@ Results measureAll(const Options& options) {
     return results;
 }
 
-/// What a page can have at `<!-- bench map_size ... -->`, each ending with a newline.
-std::map<std::string, std::string> contents(const Results& results, const std::string& stamp,
-                                            const std::string& figure) {
-    return {{"stamp", stamp + "\n"},
+PageContents contents(const Results& results, const std::string& stamp, const std::string& figure) {
+    return {{"stamp", stamp},
             {"table checks", toMarkdown(checksTable(results))},
             {"table times", toMarkdown(timesTable(results))},
             {"table passes", toMarkdown(passesTable(results))},
@@ -125,16 +119,6 @@ std::map<std::string, std::string> contents(const Results& results, const std::s
             {"table memory", toMarkdown(memoryTable(results))},
             {"table movers", toMarkdown(moversTable(results))},
             {"figure", fmt::format("![Time of a step and memory by map size]({}.svg)\n", figure)}};
-}
-
-void drawSvg(const Results& results, const fs::path& stem) {
-    report::writeFigure(mapSizeFigure(results), stem, {false, true, false});
-}
-
-void writeFile(const std::string& name, const std::string& text) {
-    PartFile file(name);
-    file.write(text);
-    file.close();
 }
 
 void writePaced(const Results& results, const fs::path& folder) {
@@ -151,20 +135,12 @@ void write(const Results& results, const std::string& stamp, const fs::path& fol
     writePaced(results, folder);
     writeFile((folder / "map_size_memory.csv").string(), toCsv(memoryTable(results)));
     writeFile((folder / "map_size_movers.csv").string(), toCsv(moversTable(results)));
-    drawSvg(results, folder / "map_size");
+    drawSvg(mapSizeFigure(results), folder / "map_size");
 }
 
 void fill(const Results& results, const std::string& stamp, const fs::path& page) {
-    const auto by_mark = contents(results, stamp, page.stem().string());
-    const std::string text =
-        study::filledText(page.string(), "bench", "map_size", [&](const std::vector<std::string>& words) {
-            const auto found = by_mark.find(fmt::format("{}", fmt::join(words, " ")));
-            if (found == by_mark.end())
-                throw ConfigError(fmt::format("'{}' is no mark of map_size", fmt::join(words, " ")));
-            return found->second;
-        });
-    drawSvg(results, page.parent_path() / page.stem());
-    study::writePage(page.string(), text);
+    drawSvg(mapSizeFigure(results), page.parent_path() / page.stem());
+    fillPage(page.string(), "map_size", contents(results, stamp, page.stem().string()));
 }
 
 void run(Options options, const std::string& command) {
@@ -187,10 +163,7 @@ void run(Options options, const std::string& command) {
         return;
     }
     const Results results = measureAll(options);
-    const study::Provenance here = study::provenanceHere(command);
-    const std::string stamp =
-        fmt::format("Filled on {}, {}, {} cores, slamot {}; others used {:.1f} % of the machine: `{}`",
-                    here.date, here.processor, here.cores, version, 100 * others.part(), here.command);
+    const std::string stamp = stampLine(command, others.part());
     write(results, stamp, options.out);
     if (!options.page.empty()) fill(results, stamp, options.page);
     std::cout << toMarkdown(checksTable(results));

@@ -1,29 +1,12 @@
 #include <utility>
 
+#include "BenchPage.h"
 #include "MapSizeReport.h"
 
 namespace slamot::bench {
 namespace {
 
 namespace colour = report::colour;
-
-report::Panel panelOver(const std::string& quantity, const std::string& unit) {
-    report::Panel panel;
-    panel.height = 320;
-    panel.x.label = "Landmarks in the map";
-    panel.y.label = quantity;
-    panel.y.unit = unit;
-    panel.x.logarithmic = panel.y.logarithmic = true;
-    return panel;
-}
-
-/// A line through its points; both are left out where there is none.
-void addCurve(report::Panel& panel, const std::string& label, const report::Points2& points,
-              const std::string& colour, report::Dash dash = report::Dash::solid) {
-    if (points.empty()) return;
-    panel.layers.push_back(report::Line{label, points, colour, 1.5, dash});
-    panel.layers.push_back(report::Points{"", points, colour, report::Symbol::dot, 6});
-}
 
 /// One value for every size where there is one.
 template <class Value>
@@ -40,7 +23,7 @@ std::optional<double> medianOf(const std::optional<FilledRun>& run) {
 }
 
 report::Panel timePanel(const Results& results) {
-    report::Panel panel = panelOver("Processor time of a step", "ms");
+    report::Panel panel = logarithmicPanel("Landmarks in the map", "Processor time of a step", "ms");
     const auto compressed = [&](double TimeSummary::*figure) {
         return curve(results, [&](const SizeResult& size) -> std::optional<double> {
             return summarise(size.compressed, [](const auto& step) { return step.second_pass; }).*figure;
@@ -59,7 +42,7 @@ report::Panel timePanel(const Results& results) {
 }
 
 report::Panel memoryPanel(const Results& results) {
-    report::Panel panel = panelOver("Memory", "MB");
+    report::Panel panel = logarithmicPanel("Landmarks in the map", "Memory", "MB");
     const auto megabytes = [](std::size_t bytes) {
         return std::optional<double>(1e-6 * static_cast<double>(bytes));
     };

@@ -19,6 +19,9 @@ bool operator==(Place a, Place b) {
 /// [m] by which landmarks may lie off where they are looked for, beyond what a sensor reaches.
 constexpr double view_margin = 1.0;
 
+/// Never so hidden that a detection could not be its own.
+constexpr double least_visible = 1e-3;
+
 /// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked at:
 /// a gate in range and bearing is bent there.
 constexpr double bend = 4.0;
@@ -104,6 +107,7 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
     const LandmarkFilterParameters& p = settings.parameters;
     const Matrix2 turn = rotation(pose.mean.z());
     const double pose_variance = pose.factor.topRows<2>().squaredNorm(), turn_variance = pose.factor.row(2).squaredNorm();
+    const double log_detection = std::log(p.life.detection_probability);
     work.candidates.clear();
     work.wide.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
@@ -123,10 +127,12 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             work.wide.push_back(pair);
             if (innovation.nis > settings.gate) continue;
             if (p.association == ParticleAssociation::likelihood) {
-                const double visible = landmarks_.at(near.place).existence.visibility();
-                pair.log_likelihood =
-                    innovation.logLikelihood() + std::log(p.life.detection_probability * visible);
+                // A landmark that hardly exists takes no harm from a detection of something else: its existence
+                // weighs among landmarks, not against that.
+                const double visible = std::max(landmarks_.at(near.place).existence.visibility(), least_visible);
+                pair.log_likelihood = innovation.logLikelihood() + log_detection;
                 if (pair.log_likelihood <= sight.log_unexplained) continue;
+                pair.log_likelihood += std::log(visible);
             }
             work.candidates.push_back(pair);
         }
