@@ -18,15 +18,10 @@ constexpr double draw_margin = 1.0;
 /// a gate in range and bearing is bent there.
 constexpr double bend = 4.0;
 
-/// Weights as large as this occur where components lie close together.
-constexpr double ordinary_weight = 2.0;
-
-/// A sensor in the world.
+/// The world in a sensor's frame.
 class SensorFrame {
   public:
-    SensorFrame(const Vector3& pose, const Pose2& sensor)
-        : R_(rotation(pose.z() + sensor.theta)),
-          origin_(pose.head<2>() + rotation(pose.z()) * sensor.position()) {}
+    explicit SensorFrame(const SensorPlace& place) : R_(rotation(place.heading)), origin_(place.position) {}
     Vector2 operator()(const Vector2& point) const { return R_.transpose() * (point - origin_); }
 
   private:
@@ -36,7 +31,7 @@ class SensorFrame {
 
 /// Cheap: false for pairs that could only make a term too light to be kept. `variance`: of the two, on the plane.
 bool mayBelong(const PhdSight& sight, const Vector2& at, double weight, double variance) {
-    const double widest = sight.widest + (weight > 1 ? 2 * std::log(weight) : 0);
+    const double widest = sight.widest + (weight > PhdSight::ordinary_weight ? 2 * std::log(weight) : 0);
     return (at - sight.point).squaredNorm() <= bend * widest * variance;
 }
 
@@ -73,8 +68,8 @@ void correctAgain(const PhdMap::Settings& settings, const Vector3& pose, const P
     const int s = work.terms[static_cast<std::size_t>(work.merged.order[static_cast<std::size_t>(group.first)])].sight;
     if (s < 0 || !PhdMap::isConfirmed(settings, feature)) return;
     const PhdSight& sight = work.scan.sights[static_cast<std::size_t>(s)];
-    const PointSight expected = sightOf(feature.point, pose, work.scan.views[static_cast<std::size_t>(sight.view)].sensor,
-                                        settings.transform);
+    const PointSight expected = sightOf(
+        feature.point, placeOf(pose, work.scan.views[static_cast<std::size_t>(sight.view)].sensor), settings.transform);
     update(feature.point, expected, PointInnovation(expected, sight.z, sight.R));
 }
 
@@ -106,7 +101,7 @@ void PhdMap::pairUp(const Settings& settings, const PoseBelief& pose, const Part
     const double place_variance = pose.factor.topRows<2>().squaredNorm();
     const double turn_variance = pose.factor.row(2).squaredNorm();
     for (std::size_t v = 0; v < work.scan.views.size(); ++v) {
-        const SensorFrame frame(pose.mean, work.scan.views[v].sensor);
+        const SensorFrame frame(placeOf(pose.mean, work.scan.views[v].sensor));
         for (std::size_t n = 0; n < work.near.size(); ++n) {
             const Near& near = work.near[n];
             const Vector2 at = frame(near.point.mean);
@@ -123,7 +118,7 @@ void PhdMap::pairUp(const Settings& settings, const PoseBelief& pose, const Part
                 looked = true;
                 const PointInnovation innovation(expected, sight.z, sight.R);
                 const double value =
-                    std::exp(settings.log_detection + innovation.log_likelihood) * near.weight;
+                    std::exp(settings.log_detection + innovation.logLikelihood()) * near.weight;
                 work.shares[s].all += value;
                 Pair& pair = work.pairs[s];
                 if (near.weight > settings.parameters.landmark_above && value > pair.responsibility)
@@ -190,12 +185,12 @@ double logSingle(const PhdMap::Settings& settings, const Vector3& pose, int view
     double before = 0, after = 0;
     for (const PhdMap::Seen& seen : work.seen) before += seen.from.weight * densityAt(m, seen.from.point);
     for (const PhdTerm& term : work.terms) after += term.weight * densityAt(m, term.point);
-    const PointSight exact = sightOf({m, Matrix2::Zero()}, pose, work.scan.views[static_cast<std::size_t>(view)].sensor,
-                                     GaussianTransform::linear);
+    const PointSight exact = sightOf(
+        {m, Matrix2::Zero()}, placeOf(pose, work.scan.views[static_cast<std::size_t>(view)].sensor), GaussianTransform::linear);
     double ratio = 1 - settings.parameters.detection_probability;
     for (const PhdSight& sight : work.scan.sights)
         if (sight.view == view)
-            ratio += std::exp(settings.log_detection + PointInnovation(exact, sight.z, sight.R).log_likelihood -
+            ratio += std::exp(settings.log_detection + PointInnovation(exact, sight.z, sight.R).logLikelihood() -
                               sight.log_clutter);
     return std::log(ratio * before / after);
 }
@@ -218,7 +213,7 @@ double logLikelihood(const PhdMap::Settings& settings, const Vector3& pose, int 
 
 }  // namespace
 
-double PhdMap::update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+double PhdMap::update(const Settings& settings, const Vector3& pose, bool, const ParticleScan& scan, Work& work,
                       std::vector<SightRecord>& records) {
     double log_likelihood = 0;
     work.fresh.clear();
@@ -254,7 +249,8 @@ void PhdMap::correct(const Settings& settings, const Vector3& pose, int view, Wo
     const PhdMapParameters& p = settings.parameters;
     const PhdView& window = work.scan.views[static_cast<std::size_t>(view)];
     const std::vector<PhdSight>& sights = work.scan.sights;
-    const SensorFrame frame(pose, window.sensor);
+    const SensorPlace place = placeOf(pose, window.sensor);
+    const SensorFrame frame(place);
     work.seen.clear();
     work.terms.clear();
     for (std::size_t s = 0; s < sights.size(); ++s)
@@ -272,10 +268,10 @@ void PhdMap::correct(const Settings& settings, const Vector3& pose, int view, Wo
             if (sight.view != view ||
                 !mayBelong(sight, at, near.weight, sight.variance + near.point.covariance.trace()))
                 continue;
-            if (!looked) expected = sightOf(near.point, pose, window.sensor, settings.transform);
+            if (!looked) expected = sightOf(near.point, place, settings.transform);
             looked = true;
             const PointInnovation innovation(expected, sight.z, sight.R);
-            const double weight = std::exp(settings.log_detection + innovation.log_likelihood) * near.weight;
+            const double weight = std::exp(settings.log_detection + innovation.logLikelihood()) * near.weight;
             if (weight < p.prune_below * sight.clutter) continue;
             PhdTerm term{component, static_cast<int>(s), weight, near.point};
             slamot::update(term.point, expected, innovation);

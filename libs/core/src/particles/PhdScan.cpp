@@ -32,13 +32,14 @@ PhdScan::PhdScan(const ParticleScan& scan, const PhdMapParameters& parameters, G
         sight.R = each.R;
         sight.point = each.z.x() * Vector2(std::cos(each.z.y()), std::sin(each.z.y()));
         sight.variance = each.R(0, 0) + each.z.x() * each.z.x() * each.R(1, 1);
-        sight.clutter = each.unexplained;
-        sight.log_clutter = std::log(each.unexplained);
+        sight.clutter = std::exp(each.log_unexplained);
+        sight.log_clutter = each.log_unexplained;
         // q <= exp(-NIS / 2) / (2 pi sqrt(det R)), and no term of less than prune_below is kept.
-        sight.widest = 2 * (std::log(parameters.detection_probability / (2 * pi * parameters.prune_below)) -
+        sight.widest = 2 * (std::log(PhdSight::ordinary_weight * parameters.detection_probability /
+                                      (2 * pi * parameters.prune_below)) -
                             sight.log_clutter) -
                        std::log(each.R.determinant());
-        sight.first = firstSight(Vector3::Zero(), each.z, each.R, scan.sensorOf(each), transform);
+        sight.first = firstSight(placeOf(Vector3::Zero(), scan.sensorOf(each)), each.z, each.R, transform);
         sight.birth = each.birth;
         sights.push_back(sight);
     }

@@ -86,9 +86,9 @@ class PhdMap {
                 std::vector<SightRecord>& records) const;
     /// The pose with what these landmarks say of it, sight after sight.
     void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
-    /// The density's update at a known pose, after pairUp. Returns the log of the scan's likelihood given the map
-    /// before, up to what is the same for all particles.
-    double update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+    /// The density's update at a known pose, after pairUp; `drawn` makes no difference to it. Returns the log of the
+    /// scan's likelihood given the map before, up to what is the same for all particles.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
                   std::vector<SightRecord>& records);
 
     const PhdFeature* find(LandmarkId id) const { return features_.find(id); }

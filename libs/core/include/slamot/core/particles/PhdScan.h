@@ -1,5 +1,6 @@
 #pragma once
 // A scan as the densities of all particles look at it: what does not depend on the particle is worked out once.
+#include <cmath>
 #include <vector>
 
 #include "slamot/core/data/Detections.h"
@@ -13,6 +14,9 @@ namespace slamot {
 DetectionSet withoutIdentities(DetectionSet set);
 
 struct PhdSight {
+    /// Heavier components are rare.
+    static constexpr double ordinary_weight = 2;
+
     int view;
     Vector2 z;
     Matrix2 R;
@@ -20,7 +24,7 @@ struct PhdSight {
     double variance;             ///< sum of its noise's variances there [m^2]
     double log_clutter;          ///< of c(z)
     double clutter;              ///< c(z) [1/(m rad)]
-    double widest;               ///< NIS beyond which a component of weight 1 has no part in it
+    double widest;               ///< NIS beyond which a component of ordinary weight has no part in it
     GaussianPoint first;         ///< the landmark it is the first sight of, in the robot's frame
     LandmarkId birth;
 };
