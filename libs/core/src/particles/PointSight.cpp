@@ -13,9 +13,38 @@ Matrix2 lowerFactor(const Matrix2& P) {
     return (Matrix2() << a, 0, b, std::sqrt(std::max(P(1, 1) - b * b, 0.0))).finished();
 }
 
-Vector2 seenAt(const Vector3& pose, const Vector2& point, const Pose2& sensor) {
-    return rangeBearing<double>(pose, point, sensor);
-}
+/// What is seen when sensor and point are moved a little, beside what is seen when they are not. Bearings are compared
+/// as angles between lines of sight: a turn needs no sine unless it moves the sensor, and there is nothing to wrap twice.
+class MovedSight {
+  public:
+    /// `lever`: from the point that the robot turns about to the sensor, in the world [m].
+    MovedSight(const SensorPlace& sensor, const Vector2& lever, const Vector2& point)
+        : lever_(lever),
+          has_lever_(!lever.isZero(0)),
+          rel_(point - sensor.position),
+          range_(rel_.norm()),
+          line_(range_ > 0 ? rel_ : Vector2::UnitX()),
+          unmoved_(range_, wrapAngle(std::atan2(rel_.y(), rel_.x()) - sensor.heading)) {}
+
+    const Vector2& unmoved() const { return unmoved_; }
+    Vector2 withPoint(const Vector2& shift) const { return to(rel_ + shift, 0); }
+    Vector2 withPose(const Vector3& shift) const {
+        const Vector2 rel = rel_ - shift.head<2>();
+        return to(has_lever_ ? Vector2(rel + lever_ - rotation(shift.z()) * lever_) : rel, shift.z());
+    }
+
+  private:
+    Vector2 to(const Vector2& rel, double turn) const {
+        const double across = line_.x() * rel.y() - line_.y() * rel.x();
+        return {rel.norm() - range_, wrapAngle(std::atan2(across, line_.dot(rel)) - turn)};
+    }
+
+    Vector2 lever_;
+    bool has_lever_;
+    Vector2 rel_;
+    double range_;
+    Vector2 line_, unmoved_;
+};
 
 /// Sums over sigma points that lie in pairs +-reach e_i: mean, covariance, and covariance with e_i.
 template <int Dimensions>
@@ -47,18 +76,12 @@ struct SigmaSums {
 
 PointSight unscentedSight(const GaussianPoint& point, const PoseBelief& pose, const Pose2& sensor) {
     const Matrix2 L = lowerFactor(point.covariance);
-    const Vector2 centre = seenAt(pose.mean, point.mean, sensor);
-    const SigmaSums<5> sums(centre, [&](int i, double side) {
-        return i < 3 ? rangeBearingResidual(
-                           seenAt(pose.mean + side * pose.factor.col(i), point.mean, sensor), centre)
-                     : rangeBearingResidual(seenAt(pose.mean, point.mean + side * L.col(i - 3), sensor), centre);
+    const SensorPlace place = placeOf(pose.mean, sensor);
+    const MovedSight sight(place, place.position - pose.mean.head<2>(), point.mean);
+    const SigmaSums<5> sums(sight.unmoved(), [&](int i, double side) {
+        return i < 3 ? sight.withPose(side * pose.factor.col(i)) : sight.withPoint(side * L.col(i - 3));
     });
     return {sums.mean, sums.covariance, sums.with.leftCols<3>(), L * sums.with.rightCols<2>().transpose()};
-}
-
-Vector2 seenFrom(const SensorPlace& sensor, const Vector2& point) {
-    const Vector2 rel = point - sensor.position;
-    return {rel.norm(), wrapAngle(std::atan2(rel.y(), rel.x()) - sensor.heading)};
 }
 
 Vector2 pointedAt(const SensorPlace& sensor, const Vector2& z) {
@@ -67,10 +90,8 @@ Vector2 pointedAt(const SensorPlace& sensor, const Vector2& z) {
 
 PointSight unscentedSight(const GaussianPoint& point, const SensorPlace& sensor) {
     const Matrix2 L = lowerFactor(point.covariance);
-    const Vector2 centre = seenFrom(sensor, point.mean);
-    const SigmaSums<2> sums(centre, [&](int i, double side) {
-        return rangeBearingResidual(seenFrom(sensor, point.mean + side * L.col(i)), centre);
-    });
+    const MovedSight sight(sensor, Vector2::Zero(), point.mean);
+    const SigmaSums<2> sums(sight.unmoved(), [&](int i, double side) { return sight.withPoint(side * L.col(i)); });
     return {sums.mean, sums.covariance, Eigen::Matrix<double, 2, 3>::Zero(), L * sums.with.transpose()};
 }
 

@@ -1,0 +1,67 @@
+#pragma once
+// A scan as the densities of all particles look at it: what does not depend on the particle is worked out once.
+#include <cmath>
+#include <vector>
+
+#include "slamot/core/data/Detections.h"
+#include "slamot/core/particles/ParticleScan.h"
+#include "slamot/core/particles/PhdParameters.h"
+#include "slamot/core/particles/PointSight.h"
+
+namespace slamot {
+
+/// A batch without the identities that the log gives: a density has no use for them.
+DetectionSet withoutIdentities(DetectionSet set);
+
+struct PhdSight {
+    /// Heavier components are rare.
+    static constexpr double ordinary_weight = 2;
+
+    int view;
+    Vector2 z;
+    Matrix2 R;
+    Vector2 point;               ///< where it points to, in the sensor's frame [m]
+    double variance;             ///< sum of its noise's variances there [m^2]
+    double log_clutter;          ///< of c(z)
+    double clutter;              ///< c(z) [1/(m rad)]
+    double widest;               ///< NIS beyond which a component of ordinary weight has no part in it
+    GaussianPoint first;         ///< the landmark it is the first sight of, in the robot's frame
+    LandmarkId birth;
+};
+
+/// A sensor's field of view, with margins.
+struct PhdView {
+    PhdView(const ScanView& view, const PhdMapParameters& parameters);
+
+    Pose2 sensor;
+    bool looks;  ///< it detects what has no identity
+    /// Whether it may detect what lies at `at` in its frame [m].
+    bool maySee(const Vector2& at) const { return contains(outer, at); }
+    /// Whether it would.
+    bool surelySees(const Vector2& at) const { return contains(inner, at); }
+
+  private:
+    struct Limits {
+        double nearest, farthest;  ///< [m]
+        double cosine;             ///< of half the field of view; -2: all round
+    };
+    static bool contains(const Limits& limits, const Vector2& at) {
+        const double squared = at.squaredNorm();
+        if (squared < limits.nearest * limits.nearest || squared > limits.farthest * limits.farthest) return false;
+        return at.x() >= limits.cosine * std::sqrt(squared);
+    }
+
+    Limits outer, inner;
+};
+
+struct PhdScan {
+    PhdScan() = default;
+    PhdScan(const ParticleScan& scan, const PhdMapParameters& parameters, GaussianTransform transform);
+
+    Stamp now;
+    double reach = 0;  ///< [m] from the robot's origin within which anything may be detected
+    std::vector<PhdSight> sights;
+    std::vector<PhdView> views;
+};
+
+}  // namespace slamot
