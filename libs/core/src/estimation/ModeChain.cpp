@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "slamot/core/estimation/TargetModes.h"
@@ -82,6 +84,13 @@ std::vector<TargetModel> modelsOf(const ImmParameters& parameters) {
         models.back().noise_interval = parameters.noise_interval;
     }
     return models;
+}
+
+const TargetModel& simplestOf(const std::vector<TargetModel>& models) {
+    return *std::min_element(models.begin(), models.end(), [](const TargetModel& a, const TargetModel& b) {
+        return std::make_tuple(a.kind, -a.noise_std, a.turn_rate) <
+               std::make_tuple(b.kind, -b.noise_std, b.turn_rate);
+    });
 }
 
 }  // namespace slamot

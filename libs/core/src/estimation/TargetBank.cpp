@@ -56,18 +56,6 @@ Matrix6 symmetric(const Matrix6& P) {
     return 0.5 * (P + P.transpose());
 }
 
-TargetGaussian mixture(const Eigen::Ref<const Eigen::VectorXd>& w, const std::vector<TargetGaussian>& modes) {
-    TargetGaussian out{Vector6::Zero(), Matrix6::Zero()};
-    for (std::size_t i = 0; i < modes.size(); ++i)
-        out.mean += w(static_cast<Eigen::Index>(i)) * modes[i].mean;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        const Vector6 spread = modes[i].mean - out.mean;
-        out.covariance +=
-            w(static_cast<Eigen::Index>(i)) * (modes[i].covariance + spread * spread.transpose());
-    }
-    return out;
-}
-
 /// Without the negative eigenvalues that rounding leaves in a symmetric matrix.
 Matrix6 clipped(const Matrix6& Q) {
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(Q);
@@ -110,15 +98,12 @@ void TargetBank::synchronise(const TargetGaussian& joint) {
 
 BlockPrediction TargetBank::predict(const Eigen::MatrixXd& p, const std::vector<TargetModel>& models,
                                     double dt, const Vector6& joint_mean) {
-    // c_j = sum_i p_ij mu_i; mode j starts from the mixture with weights p_ij mu_i / c_j.
-    const Eigen::VectorXd c = p.transpose() * mu_;
-    std::vector<TargetGaussian> mixed(modes_.size()), predicted(modes_.size());
+    const MixedModes start = mixedModes(p, mu_, modes_);
+    const Eigen::VectorXd& c = start.probabilities;
+    const std::vector<TargetGaussian>& mixed = start.modes;
+    std::vector<TargetGaussian> predicted(modes_.size());
     std::vector<Matrix6> A(modes_.size());
     for (std::size_t j = 0; j < modes_.size(); ++j) {
-        const auto column = static_cast<Eigen::Index>(j);
-        const Eigen::VectorXd given =
-            c(column) > 0 ? Eigen::VectorXd(p.col(column).cwiseProduct(mu_) / c(column)) : mu_;
-        mixed[j] = mixture(given, modes_);
         const TargetPrediction f = predictTarget(models[j], mixed[j].mean, dt);
         A[j] = f.F;
         predicted[j] = {f.mean, symmetric(f.F * mixed[j].covariance * f.F.transpose()) + f.Q};

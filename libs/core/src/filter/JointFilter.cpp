@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <tuple>
 
 namespace slamot {
 
@@ -50,7 +49,7 @@ void JointFilter::start(Stamp stamp, const PoseGaussian& pose) {
 void JointFilter::predict(const OdometryIncrement& odometry) {
     setModels(odometry.t0);
     belief_->predict(odometry, models_);
-    if (life_.busy()) life_.predict(relativeStep(motion_, odometry), simplestModel());
+    if (life_.busy()) life_.predict(relativeStep(motion_, odometry), simplestOf(models_));
     endUnseenTracks(odometry.t1);
 }
 
@@ -62,13 +61,6 @@ void JointFilter::setModels(Stamp stamp) {
         models_.front().kind = change.kind;
         models_.front().noise_std = change.noise_std;
     }
-}
-
-const TargetModel& JointFilter::simplestModel() const {
-    return *std::min_element(models_.begin(), models_.end(), [](const TargetModel& a, const TargetModel& b) {
-        return std::make_tuple(a.kind, -a.noise_std, a.turn_rate) <
-               std::make_tuple(b.kind, -b.noise_std, b.turn_rate);
-    });
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {

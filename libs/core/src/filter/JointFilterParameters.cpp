@@ -102,14 +102,15 @@ std::vector<ParameterTable> describe(JointFilterParameters& p, const std::string
                    [&p] { return scheduleText(p.target_schedule); }});
     describeLife(p, target);
     ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
-    ParameterTable mixed = describe(p.life, name, landmarks, target);
+    describeLandmarks(p.life, landmarks);
+    describeMovers(p.life, target);
     return {filterTable(p, name, about),
             describe(p.engine.active_set, name + ".engine"),
             outlierTable(p, name),
             describe(p.association, name + ".association"),
             landmarks,
             target,
-            mixed};
+            describeMixed(p.life, name)};
 }
 
 std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::string& name,
@@ -140,7 +141,8 @@ std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::str
     ParameterTable target(name + ".target", "Life of movers.");
     describeLife(p, target);
     ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
-    ParameterTable mixed = describe(p.life, name, landmarks, target);
+    describeLandmarks(p.life, landmarks);
+    describeMovers(p.life, target);
     return {filter,
             describe(p.engine.active_set, name + ".engine"),
             outlierTable(p, name),
@@ -148,7 +150,7 @@ std::vector<ParameterTable> describeImm(JointFilterParameters& p, const std::str
             landmarks,
             modes,
             target,
-            mixed};
+            describeMixed(p.life, name)};
 }
 
 }  // namespace slamot

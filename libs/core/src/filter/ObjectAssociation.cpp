@@ -12,11 +12,6 @@ namespace {
 /// [m] by which landmarks may lie off where they are looked for, beyond what the robot's covariance says.
 constexpr double view_margin = 1.0;
 
-/// Never so small that a detection could not be its own.
-double visibility(const std::optional<ObjectLifeRecord>& life) {
-    return life ? std::max(life->existence.visibility() / life->existence.probability(), 0.1) : 1.0;
-}
-
 /// The sensor with limits that contain what it has just detected: readings beyond the stated ones come from
 /// somewhere too.
 RangeBearingSensor reaching(const RangeBearingSet& seen, int number) {
@@ -89,15 +84,6 @@ std::vector<BlockId> ObjectAssociation::landmarksInView(const ModalState& belief
     return out;
 }
 
-std::vector<double> ObjectAssociation::clutterDensities(const RangeBearingSet& seen) const {
-    std::vector<double> out;
-    for (const RangeBearingDetection& detection : seen.detections) {
-        const LifeParameters& life = detection.kind == ObjectKind::mover ? mover_life_ : landmark_life_;
-        out.push_back(unexplainedDensity(life, seen.sensors[static_cast<std::size_t>(detection.sensor)]));
-    }
-    return out;
-}
-
 AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue& objects,
                                              const RangeBearingSet& seen,
                                              std::vector<Innovation>& innovations) {
@@ -119,16 +105,17 @@ AssociatedBatch ObjectAssociation::associate(ModalState& belief, ObjectCatalogue
     for (const BlockId block : batch.landmarks)
         if (!named(batch.known.landmarks, block))
             visible.push_back({block, ObjectKind::landmark, landmark_life_.detection_probability,
-                               visibility(objects.landmarkOf(block)->life)});
+                               visiblePart(objects.landmarkOf(block)->life)});
     for (const TrackRecord& track : objects.tracks())
         if (!named(batch.known.targets, track.block))
             visible.push_back(
-                {track.block, ObjectKind::mover, mover_life_.detection_probability, visibility(track.life)});
+                {track.block, ObjectKind::mover, mover_life_.detection_probability, visiblePart(track.life)});
     std::vector<int> nameless;
     for (std::size_t d = 0; d < seen.detections.size(); ++d)
         if (isAssociated(seen.detections[d])) nameless.push_back(static_cast<int>(d));
 
-    BatchAssociation found = associator_.associate(belief, visible, seen, nameless, clutterDensities(seen));
+    BatchAssociation found = associator_.associate(
+        belief, visible, seen, nameless, unexplainedDensities(landmark_life_, mover_life_, seen));
     pair(objects, visible, batch, found, innovations);
     for (const int d : nameless)
         if (found.of_detection[static_cast<std::size_t>(d)].object < 0) batch.unexplained.push_back(d);

@@ -13,6 +13,10 @@ auto* find(Records& records, Id id) {
 
 }  // namespace
 
+double visiblePart(const std::optional<ObjectLifeRecord>& life) {
+    return life ? std::max(life->existence.visibility() / life->existence.probability(), 0.1) : 1.0;
+}
+
 LandmarkRecord& ObjectCatalogue::addLandmark(BlockId block, SourceId source, Stamp now) {
     const LandmarkId id{next_landmark_++};
     if (source.valid()) landmark_by_source_[source] = id;

@@ -44,11 +44,13 @@ TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double ve
 
 }  // namespace
 
-ParameterTable describe(ObjectLifeParameters& p, const std::string& name, ParameterTable& landmarks,
-                        ParameterTable& movers) {
+void describeLandmarks(ObjectLifeParameters& p, ParameterTable& landmarks) {
     describe(p.landmarks, "landmarks", landmarks);
     landmarks.real("merge_probability", p.merge_probability, "-", Interval::openProbability(),
                    "Of two landmarks being one, at which they are merged.");
+}
+
+void describeMovers(ObjectLifeParameters& p, ParameterTable& movers) {
     describe(p.movers, "movers", movers);
     movers
         .choice("birth", p.birth,
@@ -59,6 +61,9 @@ ParameterTable describe(ObjectLifeParameters& p, const std::string& name, Parame
               "A mover that comes back within that time after its track ended has its number again.")
         .real("reidentify_probability", p.reidentify_probability, "-", Interval::openProbability(),
               "Part of the movers that come back which lie inside the gate of the ended track's prediction.");
+}
+
+ParameterTable describeMixed(ObjectLifeParameters& p, const std::string& name) {
     ParameterTable mixed(name + ".mixed",
                          "Detections of which the sensor does not tell landmark from mover.");
     mixed

@@ -70,8 +70,7 @@ Matrix6 transitionUnicycle(const Vector6& x, const Vector6& moved, double dt) {
     Matrix6 F = transitionCt(w, dt);
     // d/dw of dt (sinc I + versc J) v: the mean over the arc of s J Rot(w s) v.
     const bool is_small = std::abs(angle) < 1e-4;
-    const double c = std::cos(angle), s = std::sin(angle), h = std::sin(0.5 * angle);
-    const double d_sinc = is_small ? -angle / 3.0 : (angle * c - s) / (angle * angle);
+    const double s = std::sin(angle), h = std::sin(0.5 * angle), d_sinc = sincDerivative(angle);
     // 1 - cos as 2 sin^2(half): the difference loses half its digits at small angles.
     const double d_versc = is_small ? 0.5 - angle * angle / 8.0 : (angle * s - 2.0 * h * h) / (angle * angle);
     F.topRows<2>() += dt * dt * ((d_sinc * Matrix2::Identity() + d_versc * J) * v) * dw;

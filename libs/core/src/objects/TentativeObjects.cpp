@@ -20,6 +20,16 @@ double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& 
     return clutterDensity(std::max(life.clutter_per_scan + life.new_per_scan, least_per_scan), sensor);
 }
 
+std::vector<double> unexplainedDensities(const LifeParameters& landmarks, const LifeParameters& movers,
+                                         const RangeBearingSet& seen) {
+    std::vector<double> out;
+    for (const RangeBearingDetection& detection : seen.detections) {
+        const LifeParameters& life = detection.kind == ObjectKind::mover ? movers : landmarks;
+        out.push_back(unexplainedDensity(life, seen.sensors[static_cast<std::size_t>(detection.sensor)]));
+    }
+    return out;
+}
+
 /// What an update is given.
 struct TentativeObjects::Batch {
     const RangeBearingSet& seen;

@@ -60,8 +60,10 @@ void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, c
 
     records.assign(scan.sights.size(), {});
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
-        if (work.near_of[s] < 0) continue;
         const ScanSight& sight = scan.sights[s];
+        records[s].may_be_new = work.may_start[s];
+        if (sight.may_be_mover) work.may_start[s] = false;
+        if (work.near_of[s] < 0) continue;
         const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
         PointSight& expected = work.expected[s];
         expected = expectedAt(settings, pose, scan, work, sight, near.point);
@@ -110,6 +112,8 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
     const double log_detection = std::log(p.life.detection_probability);
     work.candidates.clear();
     work.wide.clear();
+    auto rival = work.rivals.begin();
+    int objects = static_cast<int>(work.near.size());
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.named()) continue;
@@ -136,19 +140,22 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             }
             work.candidates.push_back(pair);
         }
+        for (; rival != work.rivals.end() && rival->detection == static_cast<int>(s); ++rival) {
+            work.candidates.push_back(*rival);
+            work.candidates.back().object += static_cast<int>(work.near.size());
+            objects = std::max(objects, work.candidates.back().object + 1);
+        }
     }
-    const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
-                                     work.candidates);
+    const AssociationProblem problem(static_cast<int>(scan.sights.size()), objects, work.candidates);
     const Pairing pairing = nearestNeighbour(problem);
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const int c = pairing.of(static_cast<int>(s));
-        if (c < 0) continue;
+        if (!scan.sights[s].named()) work.may_start[s] = c < 0;
+        if (c < 0 || problem.candidate(c).object >= static_cast<int>(work.near.size())) continue;
         work.near_of[s] = problem.candidate(c).object;
         work.near[static_cast<std::size_t>(work.near_of[s])].paired = true;
     }
     // What lies near a landmark that is not seen otherwise may be of it: it starts nothing.
-    for (std::size_t s = 0; s < scan.sights.size(); ++s)
-        if (!scan.sights[s].named()) work.may_start[s] = work.near_of[s] < 0;
     for (const Candidate& pair : work.wide)
         if (!work.near[static_cast<std::size_t>(pair.object)].paired)
             work.may_start[static_cast<std::size_t>(pair.detection)] = false;
@@ -252,6 +259,11 @@ void LandmarkFilters::start(const Settings& settings, const SensorPlace& sensor,
     if (!sight.named()) landmark.existence = Existence(settings.parameters.life);
     landmark.first_seen = landmark.last_seen = landmark.looked = now;
     landmarks_.append(landmark);
+}
+
+void LandmarkFilters::remove(LandmarkId id) {
+    Place place;
+    if (landmarks_.locate(id, place)) landmarks_.remove({place});
 }
 
 void LandmarkFilters::letGo(const Settings& settings, Stamp now, Work& work) {

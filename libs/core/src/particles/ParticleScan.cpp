@@ -26,7 +26,8 @@ ParticleScan ScanMaker::scan(const DetectionSet& set) {
         // A reading beyond the stated limit comes from somewhere too.
         view.reach = std::max(view.reach, d.range + view.sensor.pose.position().norm());
         const Vector2 local = inverseRangeBearing<double>(Vector3::Zero(), d.z(), view.sensor.pose);
-        ScanSight sight{static_cast<int>(i), d.z(), d.covariance, local, d.sensor, {}, {}, birth, 0};
+        ScanSight sight{static_cast<int>(i), d.z(), d.covariance, local, d.sensor, {}, {}, birth, 0, false};
+        sight.may_be_mover = movers_ && d.kind == ObjectKind::unknown;
         if (named) {
             const auto [known, is_new] = named_.try_emplace(d.source, birth);
             // Twice in its first batch: the first has started it, the second says nothing that can be used.

@@ -4,13 +4,9 @@
 #include <vector>
 
 #include "slamot/core/estimation/ModalState.h"
+#include "slamot/core/estimation/TargetMixture.h"
 
 namespace slamot {
-
-struct TargetGaussian {
-    Vector6 mean;
-    Matrix6 covariance;
-};
 
 /// How the joint state's block of a mover moves, as the bank has it: x <- mean, P <- Phi P Phi^t + Q.
 struct BlockPrediction {

@@ -70,6 +70,9 @@ ModeChain chainOf(const ImmParameters& parameters);
 Eigen::VectorXd initialProbabilities(const ImmParameters& parameters);
 std::vector<TargetModel> modelsOf(const ImmParameters& parameters);
 
+/// Of movers that have no modes, since they are not confirmed yet, or lost. Whatever the order of the models.
+const TargetModel& simplestOf(const std::vector<TargetModel>& models);
+
 /// Adds the keys of the modes and of their chain.
 void describe(ImmParameters& parameters, ParameterTable& table);
 

@@ -89,8 +89,6 @@ class JointFilter {
 
   private:
     void setModels(Stamp stamp);
-    /// Of movers that have no modes: not confirmed yet, or lost. Whatever the order of the modes.
-    const TargetModel& simplestModel() const;
     void endUnseenTracks(Stamp now);
     UpdateReport updateByIdentity(const RangeBearingSet& seen, Stamp now);
     UpdateReport updateByAssociation(const RangeBearingSet& seen, Stamp now);

@@ -40,7 +40,6 @@ class ObjectAssociation {
     bool isAssociated(const RangeBearingDetection& detection) const;
     std::vector<BlockId> landmarksInView(const ModalState& belief, const ObjectCatalogue& objects,
                                          const RangeBearingSet& seen) const;
-    std::vector<double> clutterDensities(const RangeBearingSet& seen) const;
     void pair(ObjectCatalogue& objects, const std::vector<VisibleObject>& visible, AssociatedBatch& batch,
               const BatchAssociation& found, std::vector<Innovation>& innovations) const;
 

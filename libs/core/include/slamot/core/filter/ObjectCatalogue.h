@@ -20,6 +20,9 @@ struct ObjectLifeRecord {
     Stamp looked;   ///< when existence was judged last
 };
 
+/// Part of the time that nothing hides it, if it is there. Never so small that a detection could not be its own.
+double visiblePart(const std::optional<ObjectLifeRecord>& life);
+
 struct LandmarkRecord {
     LandmarkId id;
     SourceId source;

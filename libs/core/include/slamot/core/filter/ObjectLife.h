@@ -30,9 +30,11 @@ struct ObjectLifeParameters {
     double decide_probability = 0.9;  ///< P(moving) beyond which an object of unknown kind is a mover
 };
 
-/// Adds to the tables of landmarks and of movers, and gives the table `[name.mixed]`.
-ParameterTable describe(ObjectLifeParameters& parameters, const std::string& name, ParameterTable& landmarks,
-                        ParameterTable& movers);
+/// Adds to the tables of landmarks and of movers.
+void describeLandmarks(ObjectLifeParameters& parameters, ParameterTable& landmarks);
+void describeMovers(ObjectLifeParameters& parameters, ParameterTable& movers);
+/// The table `[name.mixed]`.
+ParameterTable describeMixed(ObjectLifeParameters& parameters, const std::string& name);
 
 class ObjectLife {
   public:

@@ -1,6 +1,7 @@
 #pragma once
 // How movers move. One state for all Gaussian estimators: x = [px py vx vy ax ay], world frame, SI units.
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ S sinc(const S& a) {
     if (a * a < S(1e-8)) return S(1) - a * a / S(6);
     return sin(a) / a;
 }
+/// d sinc(a) / da.
+inline double sincDerivative(double a) {
+    return std::abs(a) < 1e-4 ? -a / 3.0 : (a * std::cos(a) - std::sin(a)) / (a * a);
+}
 template <class S>
 S versc(const S& a) {
     using std::sin;
@@ -99,6 +104,11 @@ Eigen::Matrix<S, 6, 1> unicycleMotion(const Eigen::Matrix<S, 6, 1>& x, double dt
     y(4) = -w * y(3);
     y(5) = w * y(2);
     return y;
+}
+
+/// Whether F and Q are the same for all states.
+inline bool isLinear(TargetModelKind kind) {
+    return kind != TargetModelKind::unicycle;
 }
 
 struct TargetPrediction {

@@ -32,6 +32,9 @@ struct TentativeObject {
 /// Density [1/(m rad)] of what a sensor detects that comes from no known object: clutter, and first sights.
 /// Never 0, also where neither is expected: every detection has some source.
 double unexplainedDensity(const LifeParameters& life, const RangeBearingSensor& sensor);
+/// By number of detection; of unknown kind counts as landmarks.
+std::vector<double> unexplainedDensities(const LifeParameters& landmarks, const LifeParameters& movers,
+                                         const RangeBearingSet& seen);
 
 /// One that is confirmed, by a detection of the present batch.
 struct ConfirmedObject {

@@ -65,6 +65,9 @@ class LandmarkFilters {
         std::vector<int> near_of;         ///< by sight: what it is of, -1 none
         std::vector<PointSight> expected; ///< by sight, at the predicted pose
         std::vector<bool> may_start;      ///< by sight
+        /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of sights, with
+        /// the movers' own numbers. A sight that is likelier one of theirs is left to them.
+        std::vector<Candidate> rivals;
         std::vector<Candidate> candidates, wide;
         std::vector<SharedPages<LandmarkFilter>::Place> lost;
 
@@ -83,6 +86,10 @@ class LandmarkFilters {
     /// Takes the scan in at a known pose; `drawn`: it is not the one that pairs were found at. Returns the log of its likelihood given the map before.
     double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
                   std::vector<SightRecord>& records);
+
+    /// A landmark that all particles are given at once; its number lies above all others'.
+    void add(const LandmarkFilter& landmark) { landmarks_.append(landmark); }
+    void remove(LandmarkId id);
 
     const LandmarkFilter* find(LandmarkId id) const { return landmarks_.find(id); }
     static bool isConfirmed(const Settings& settings, const LandmarkFilter& landmark) {

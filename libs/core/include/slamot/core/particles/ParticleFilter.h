@@ -51,9 +51,18 @@ class ParticleFilter {
     void predict(const OdometryIncrement& odometry) { cloud_.predict(odometry, workers_); }
 
     UpdateReport update(const DetectionSet& set) {
-        const ParticleScan scan = scans_.scan(set);
-        UpdateReport report = emptyReport(set.rangeBearing());
-        if (scan.sights.empty() && !scan.nameless) return report;
+        UpdateReport report = look(scans_.scan(set), set.rangeBearing());
+        resample();
+        return report;
+    }
+
+    // A filter that knows more of a batch than maps do puts its step together from the following.
+
+    ScanMaker& scans() { return scans_; }
+    /// What maps say of a scan: new poses and weights, the old particles.
+    UpdateReport look(const ParticleScan& scan, const RangeBearingSet& seen) {
+        UpdateReport report = emptyReport(seen);
+        if (scan.sights.empty() && !scan.nameless && !scan.fixes_poses) return report;
         workers_.forRanges(cloud_.count(), [&](int first, int last) {
             typename Map::Work work;
             for (int i = first; i < last; ++i) take(i, scan, work);
@@ -62,8 +71,36 @@ class ParticleFilter {
         const ParticleWeights before = cloud_.weights();
         cloud_.weigh(log_likelihoods_);
         fillReport(scan, before, cloud_.weights().best(), records_, report);
-        resample();
         return report;
+    }
+    /// What each particle made of the sights of the last scan that was looked at.
+    const std::vector<SightRecord>& records(int i) const { return records_[static_cast<std::size_t>(i)]; }
+    /// Calls visit(i, map, pose) for each particle, in parallel.
+    template <class Visit>
+    void forEachParticle(const Visit& visit) {
+        workers_.forRanges(cloud_.count(), [&](int first, int last) {
+            for (int i = first; i < last; ++i) visit(i, maps_[static_cast<std::size_t>(i)], cloud_.pose(i));
+        });
+    }
+    /// More news of the same time, given what is known by now.
+    bool weigh(const std::vector<double>& log_likelihoods) { return cloud_.weigh(log_likelihoods); }
+    /// When it is time to.
+    void resample() {
+        const std::vector<int> parents = cloud_.resample();
+        if (parents.empty()) return;
+        std::vector<Map> children(maps_.size());
+        for (std::size_t k = 0; k < parents.size(); ++k) {
+            const std::size_t parent = static_cast<std::size_t>(parents[k]);
+            const bool only = (k == 0 || parents[k - 1] != parents[k]) &&
+                              (k + 1 == parents.size() || parents[k + 1] != parents[k]);
+            if (only) {
+                children[k] = std::move(maps_[parent]);
+                continue;
+            }
+            children[k] = maps_[parent];
+            children[k].renew(++owners_);
+        }
+        maps_ = std::move(children);
     }
 
     PoseGaussian robot() const { return cloud_.robot(); }
@@ -110,24 +147,6 @@ class ParticleFilter {
         }
         log_likelihoods_[k] =
             log_ratio + map.update(settings_, cloud_.pose(i).mean, drawn, scan, work, records_[k]);
-    }
-
-    void resample() {
-        const std::vector<int> parents = cloud_.resample();
-        if (parents.empty()) return;
-        std::vector<Map> children(maps_.size());
-        for (std::size_t k = 0; k < parents.size(); ++k) {
-            const std::size_t parent = static_cast<std::size_t>(parents[k]);
-            const bool only = (k == 0 || parents[k - 1] != parents[k]) &&
-                              (k + 1 == parents.size() || parents[k + 1] != parents[k]);
-            if (only) {
-                children[k] = std::move(maps_[parent]);
-                continue;
-            }
-            children[k] = maps_[parent];
-            children[k].renew(++owners_);
-        }
-        maps_ = std::move(children);
     }
 
     template <class Feature>

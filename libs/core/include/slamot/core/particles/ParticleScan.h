@@ -27,6 +27,7 @@ struct ScanSight {
     /// particles started with the same detection has the same number in all of them.
     LandmarkId birth;
     double log_unexplained;  ///< log of the density [1/(m rad)] of detections that come from nothing known
+    bool may_be_mover;       ///< of unknown kind, in a filter that has movers: it starts no landmark by itself
 
     bool named() const { return source.valid(); }
 };
@@ -44,6 +45,7 @@ struct ParticleScan {
     std::vector<ScanView> views;
     double reach = 0;       ///< [m], the largest of the views'
     bool nameless = false;  ///< whether any view is
+    bool fixes_poses = false;  ///< poses are to be drawn even if nothing here is of the map
 
     const ScanView& viewOf(const ScanSight& sight) const { return views[static_cast<std::size_t>(sight.view)]; }
     const Pose2& sensorOf(const ScanSight& sight) const { return viewOf(sight).sensor.pose; }
@@ -57,15 +59,19 @@ struct ParticleScan {
 /// Makes scans of batches, and remembers what that takes.
 class ScanMaker {
   public:
-    /// use_nameless: whether detections without identity are taken in at all.
-    ScanMaker(const LifeParameters& life, bool use_nameless) : life_(life), use_nameless_(use_nameless) {}
+    /// use_nameless: whether detections without identity are taken in at all; movers: whether one of unknown kind
+    /// may be of a mover.
+    ScanMaker(const LifeParameters& life, bool use_nameless, bool movers = false)
+        : life_(life), use_nameless_(use_nameless), movers_(movers) {}
 
-    void clear() { *this = ScanMaker(life_, use_nameless_); }
+    void clear() { *this = ScanMaker(life_, use_nameless_, movers_); }
     ParticleScan scan(const DetectionSet& set);
+    /// For a landmark that all particles are given at once: above all numbers so far.
+    LandmarkId freshNumber() { return {detections_++}; }
 
   private:
     LifeParameters life_;
-    bool use_nameless_;
+    bool use_nameless_, movers_;
     SensorLimits limits_;
     std::set<std::string> nameless_;  ///< labels of sensors that have detected what has no identity
     std::unordered_map<SourceId, LandmarkId> named_;
@@ -79,6 +85,7 @@ struct SightRecord {
     TrackId track;
     Vector2 z = Vector2::Zero();        ///< expected, at the predicted pose
     Matrix2 S = Matrix2::Identity();    ///< innovation covariance there
+    bool may_be_new = false;            ///< nothing that the particle knows explains it, or could
 };
 
 }  // namespace slamot

@@ -1,0 +1,55 @@
+#pragma once
+// One particle's map of PF-SLAMOT (paper 2, figure 2): landmarks and movers, given its path. As a Map (ParticleFilter.h)
+// it is its landmarks; movers pass the time and take in their detections afterwards, when it is known which are theirs
+// (doc/plugins/pf_slamot.md). All particles have the same movers in the same order.
+#include <vector>
+
+#include "slamot/core/particles/LandmarkFilters.h"
+#include "slamot/core/particles/TargetFilter.h"
+
+namespace slamot {
+
+class LandmarksAndTargets {
+  public:
+    struct Settings {
+        LandmarkFilters::Settings landmarks;
+        TargetSettings targets;
+        double target_detection_probability;
+    };
+    using Work = LandmarkFilters::Work;
+
+    void renew(std::uint64_t owner) { landmarks_.renew(owner); }
+
+    /// A sight of unknown kind that is likelier of a mover than of any landmark is left alone.
+    void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
+                std::vector<SightRecord>& records) const;
+    void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const {
+        landmarks_.refine(settings.landmarks, scan, work, pose);
+    }
+    double update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+                  std::vector<SightRecord>& records) {
+        return landmarks_.update(settings.landmarks, pose, scan, work, records);
+    }
+
+    const LandmarkFilter* find(LandmarkId id) const { return landmarks_.find(id); }
+    static bool isConfirmed(const Settings& settings, const LandmarkFilter& landmark) {
+        return LandmarkFilters::isConfirmed(settings.landmarks, landmark);
+    }
+    template <class Visit>
+    void forEachConfirmed(const Settings& settings, const Visit& visit) const {
+        landmarks_.forEachConfirmed(settings.landmarks, visit);
+    }
+
+    LandmarkFilters& landmarks() { return landmarks_; }
+    const LandmarkFilters& landmarks() const { return landmarks_; }
+    std::vector<TargetFilter>& targets() { return targets_; }
+    const std::vector<TargetFilter>& targets() const { return targets_; }
+
+  private:
+    void findRivals(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
+
+    LandmarkFilters landmarks_;
+    std::vector<TargetFilter> targets_;
+};
+
+}  // namespace slamot
