@@ -36,6 +36,7 @@ std::vector<Contender> contenders() {
     const auto fast = [&](const std::string& version) {
         return "[fastslam]\nparticles = 200\nversion = " + version + "\n[fastslam.landmarks]\n" + life;
     };
+    const std::string phd = "[gmphd_ufastslam]\nparticles = 200\n";
     const std::string unscented = "[ufastslam]\nparticles = 200\n[ufastslam.landmarks]\n" + life;
     return {{"FastSLAM 1.0, identities known", "fastslam", true, fast("1")},
             {"FastSLAM 1.0", "fastslam", false, fast("1")},
@@ -86,9 +87,9 @@ study::Table worldTable(const std::vector<WorldResult>& results) {
                      numberColumn("Robot RMSE, m", "rmse_m"),   numberColumn("Landmarks", "landmarks"),
                      numberColumn("Times faster", "faster")};
     for (const WorldResult& r : results)
-        table.rows.push_back({textField(r.contender.label), numberField(r.times.mean), numberField(r.times.median),
+        table.lines.push_back({{textField(r.contender.label), numberField(r.times.mean), numberField(r.times.median),
                               numberField(r.times.p99), numberField(r.rmse), numberField(r.landmarks),
-                              numberField(r.peer_ratio)});
+                              numberField(r.peer_ratio)}});
     return table;
 }
 
@@ -100,9 +101,9 @@ study::Table scaleTable(const std::vector<ScaleRun>& runs) {
                      numberColumn("Off at the end, m", "end_error_m")};
     for (const ScaleRun& run : runs) {
         const TimeSummary times = summarise(run.times);
-        table.rows.push_back({countField(run.particles), countField(run.landmarks), numberField(run.seen),
+        table.lines.push_back({{countField(run.particles), countField(run.landmarks), numberField(run.seen),
                               numberField(times.median), numberField(times.p99),
-                              numberField(1e-6 * static_cast<double>(run.resident)), numberField(run.end_error)});
+                              numberField(1e-6 * static_cast<double>(run.resident)), numberField(run.end_error)}});
     }
     return table;
 }

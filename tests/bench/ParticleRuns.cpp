@@ -17,7 +17,7 @@ namespace {
 
 const sim::Scenario& world() {
     static const sim::Scenario scenario =
-        sim::loadScenario(Config::load(SLAMOT_SOURCE_DIR "/config/scenarios/rfs_world.ini"));
+        sim::loadScenario(Config::fromFile(SLAMOT_SOURCE_DIR "/config/scenarios/rfs_world.ini"));
     return scenario;
 }
 

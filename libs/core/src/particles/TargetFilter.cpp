@@ -28,7 +28,7 @@ GaussianPoint pointOf(const TargetGaussian& mode) {
 /// The EKF's or unscented filter's update of one mode; log of its likelihood.
 double correct(TargetGaussian& mode, const Vector3& pose, const TargetSight& sight, GaussianTransform transform) {
     const GaussianPoint point = pointOf(mode);
-    const PointSight expected = sightOf(point, pose, sight.sensor, transform);
+    const PointSight expected = sightOf(point, placeOf(pose, sight.sensor), transform);
     const PointInnovation innovation(expected, sight.z, sight.R);
     // All that is known of the mover meets the detection through its position.
     const Eigen::Matrix<double, 6, 2> with_z =
@@ -38,7 +38,7 @@ double correct(TargetGaussian& mode, const Vector3& pose, const TargetSight& sig
     const Eigen::LLT<Matrix2> S(innovation.S);
     const Eigen::Matrix<double, 2, 6> Wt = S.matrixL().solve(with_z.transpose());
     mode.covariance -= Wt.transpose() * Wt;
-    return innovation.log_likelihood;
+    return innovation.logLikelihood();
 }
 
 }  // namespace
