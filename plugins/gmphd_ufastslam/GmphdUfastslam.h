@@ -7,8 +7,8 @@
 
 namespace slamot {
 
-/// GM-PHD-UFastSLAM (paper 4): particles whose poses are drawn from an unscented filter of motion and scan, each with a
-/// probability hypothesis density in Gaussians for a map. Identities are not used.
+/// GM-PHD-UFastSLAM (paper 4): particles whose poses are drawn from an unscented filter of motion and scan,
+/// each with a probability hypothesis density in Gaussians for a map. Identities are not used.
 class GmphdUfastslam : public Estimator {
     DEFINE_MRPT_OBJECT(GmphdUfastslam, slamot)
 

@@ -29,19 +29,21 @@ ParameterTable describe(PhdMapParameters& p, const std::string& name) {
               "False detections of a sensor, on average; at least 0.1 is taken.")
         .real("new_per_scan", p.new_per_scan, "-", Interval::nonNegative(),
               "First detections of landmarks by a sensor, on average: a birth weighs new / (new + clutter).")
-        .real("largest_birth", p.largest_birth, "-", Interval{0, 1, true, false}, "What a birth weighs at most.")
-        .choice("births", p.births, {{"unexplained", PhdBirths::unexplained}, {"all", PhdBirths::all}},
-                "unexplained: births from detections of which components explain less than half; all: from every "
-                "detection.")
+        .real("largest_birth", p.largest_birth, "-", Interval{0, 1, true, false},
+              "What a birth weighs at most.")
+        .choice(
+            "births", p.births, {{"unexplained", PhdBirths::unexplained}, {"all", PhdBirths::all}},
+            "unexplained: births from detections of which components explain less than half; all: from every "
+            "detection.")
         .choice("likelihood", p.likelihood,
                 {{"set", PhdLikelihood::set},
                  {"empty_map", PhdLikelihood::empty_map},
                  {"single_feature", PhdLikelihood::single_feature}},
-                "Weight of a particle. set: the Poisson likelihood of all detections; empty_map, single_feature: Bayes' "
-                "rule solved for it at a map of none or one landmark (Mullane et al.).")
+                "Weight of a particle. set: the Poisson likelihood of all detections; empty_map, "
+                "single_feature: Bayes' rule solved for it at a map of none or one landmark (Mullane et al.).")
         .choice("correction", p.correction, {{"once", PhdCorrection::once}, {"twice", PhdCorrection::twice}},
-                "twice: landmarks are updated once more with the detection that the density took for them, as paper 4 "
-                "prints it; over-confident.")
+                "twice: landmarks are updated once more with the detection that the density took for them, "
+                "as paper 4 prints it; over-confident.")
         .real("range_margin", p.range_margin, "m", Interval::nonNegative(),
               "Detections may come from so far beyond the sensor's range, misses count from so far within.")
         .real("bearing_margin_deg", p.bearing_margin, "deg", Interval::between(0, 180),

@@ -39,7 +39,8 @@ void mergeTerms(const std::vector<PhdTerm>& terms, double least_weight, double w
     const int count = static_cast<int>(out.order.size());
     for (int first = 0; first < count;) {
         const PhdTerm& heaviest = term(out.order[static_cast<std::size_t>(first)]);
-        PhdGroup group{first, first + 1, heaviest.weight, heaviest.sight >= 0 ? heaviest.weight : 0, heaviest.point};
+        PhdGroup group{first, first + 1, heaviest.weight, heaviest.sight >= 0 ? heaviest.weight : 0,
+                       heaviest.point};
         out.left.clear();
         for (int k = first + 1; k < count; ++k) {
             const int i = out.order[static_cast<std::size_t>(k)];

@@ -1,6 +1,7 @@
 #pragma once
-// One particle's map as a probability hypothesis density in Gaussians (paper 4, eq. 21 to 31): how many landmarks are
-// where, without saying which detection is of which. doc/plugins/gmphd_ufastslam.md derives what differs from the paper.
+// One particle's map as a probability hypothesis density in Gaussians (paper 4, eq. 21 to 31): how many
+// landmarks are where, without saying which detection is of which. doc/plugins/gmphd_ufastslam.md derives
+// what differs from the paper.
 #include <vector>
 
 #include "slamot/core/data/Estimate.h"
@@ -32,36 +33,37 @@ class PhdMap {
         Settings(const PhdMapParameters& parameters, GaussianTransform transform);
         PhdMapParameters parameters;
         GaussianTransform transform;
-        double log_detection, log_least, birth_weight;
+        double log_detection, birth_weight;
     };
 
+    /// A component within reach.
     struct Near {
         Place place;
         LandmarkId id;
         double weight;
         GaussianPoint point;
     };
+    /// The landmark behind a sight, at the predicted pose.
+    struct Pair {
+        int near = -1;              ///< -1: none
+        double responsibility = 0;  ///< P_D w q / (c + sum P_D w q)
+        Vector2 z;                  ///< expected
+        Matrix2 S;
+    };
     /// A component that may be detected.
     struct Seen {
         Near from;
-        bool surely;          ///< it would be
+        bool surely;          ///< a look that does not detect it counts as a miss
         double detected = 0;  ///< weight of its terms with detections
-        bool kept = false;    ///< something goes on in its place
+        bool kept = false;    ///< a term goes on in its place
     };
-    /// A detection and a landmark.
-    struct Pair {
-        int near = -1;
-        double responsibility = 0;
-        Vector2 z;
-        Matrix2 S;
-    };
-    /// What becomes of a detection in the density.
+    /// What a sight is in the density.
     struct Share {
-        double all;          ///< c + sum P_D w q
-        double explained;    ///< by components
-        double largest;      ///< weight of a term with it
-        int component;       ///< of that term
-        bool numbered;       ///< its number is given away
+        double all = 0;         ///< c + sum P_D w q
+        double explained = 0;   ///< part of it that is the components'
+        double largest = 0;     ///< weight of a term
+        int component = -1;     ///< of that term; -1: no component explains any of it
+        bool numbered = false;  ///< its number is given away
     };
     /// Room for one update, used again for the next particle.
     struct Work {
@@ -70,13 +72,19 @@ class PhdMap {
         std::vector<Near> near;  ///< all within `radius` of `centre`
         Vector2 centre;
         double radius;
-        std::vector<Pair> pairs;  ///< by sight
+        std::vector<Pair> pairs;    ///< by sight
         std::vector<Share> shares;  ///< by sight
         std::vector<Seen> seen;
         std::vector<PhdTerm> terms;
         PhdGroups merged;
         std::vector<Place> lost;
-        std::vector<PhdFeature> fresh;
+        std::vector<PhdFeature> fresh;  ///< what joins the map at the end
+
+        /// The term at `k` in the order of groups.
+        const PhdTerm& member(int k) const {
+            return terms[static_cast<std::size_t>(merged.order[static_cast<std::size_t>(k)])];
+        }
+        Seen& seenOf(const PhdTerm& term) { return seen[static_cast<std::size_t>(term.component)]; }
     };
 
     void renew(std::uint64_t owner) { features_.renew(owner); }
@@ -85,11 +93,12 @@ class PhdMap {
     void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
                 std::vector<SightRecord>& records) const;
     /// The pose with what these landmarks say of it, sight after sight.
-    void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
-    /// The density's update at a known pose, after pairUp; `drawn` makes no difference to it. Returns the log of the
-    /// scan's likelihood given the map before, up to what is the same for all particles.
-    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
-                  std::vector<SightRecord>& records);
+    void refine(const Settings& settings, const ParticleScan& scan, const Work& work,
+                RefinedPose& pose) const;
+    /// The density's update at a known pose, after pairUp; `drawn` makes no difference to it. Returns the log
+    /// of the scan's likelihood given the map before, up to what is the same for all particles.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
+                  Work& work, std::vector<SightRecord>& records);
 
     const PhdFeature* find(LandmarkId id) const { return features_.find(id); }
     static bool isConfirmed(const Settings& settings, const PhdFeature& feature) {
@@ -106,8 +115,7 @@ class PhdMap {
 
   private:
     void findNear(const Vector2& centre, double radius, Work& work) const;
-    void correct(const Settings& settings, const Vector3& pose, int view, Work& work) const;
-    void begin(const Settings& settings, const Vector3& pose, int view, Work& work) const;
+    static void correct(const Settings& settings, const Vector3& pose, int view, Work& work);
     void write(const Settings& settings, const Vector3& pose, int view, Work& work);
     void leaveBehind(const Settings& settings, const Vector2& position, Work& work);
 

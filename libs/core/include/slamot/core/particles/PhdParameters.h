@@ -43,8 +43,8 @@ struct PhdMapParameters {
 
     /// min(largest_birth, new / (new + clutter)).
     double birthWeight() const;
-    /// With this a ScanMaker gives each sight the density c(z) = lambda / ((r_max - r_min) field_of_view) of clutter.
-    /// lambda is taken as 0.1 at least, so that c is never 0.
+    /// With this a ScanMaker gives each sight the density c(z) = lambda / ((r_max - r_min) field_of_view) of
+    /// clutter. lambda is taken as 0.1 at least, so that c is never 0.
     LifeParameters clutter() const;
 };
 
