@@ -24,7 +24,7 @@ void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief&
             // Scores as the landmarks' method has them.
             Candidate pair{static_cast<int>(s), static_cast<int>(t), innovation.nis, -0.5 * innovation.nis};
             if (settings.landmarks.parameters.association == ParticleAssociation::likelihood)
-                pair.log_likelihood = innovation.log_likelihood + std::log(settings.target_detection_probability);
+                pair.log_likelihood = innovation.logLikelihood() + std::log(settings.target_detection_probability);
             work.rivals.push_back(pair);
         }
     }

@@ -43,7 +43,7 @@ bool surelySeenByAny(const MoverBatch& batch, const TargetParticles& particles, 
     const auto& sensors = batch.seen.sensors;
     return std::any_of(sensors.begin(), sensors.end(), [&](const RangeBearingSensor& sensor) {
         if (!reports(sensor, ObjectKind::unknown)) return false;
-        const PointSight sight = sightOf(landmark.point, pose.mean, sensor.pose, GaussianTransform::linear);
+        const PointSight sight = sightOf(landmark.point, placeOf(pose.mean, sensor.pose), GaussianTransform::linear);
         return surelyInView(sensor, {sight.z, sight.covariance});
     });
 }

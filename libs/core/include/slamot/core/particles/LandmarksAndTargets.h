@@ -26,9 +26,9 @@ class LandmarksAndTargets {
     void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const {
         landmarks_.refine(settings.landmarks, scan, work, pose);
     }
-    double update(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work,
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
                   std::vector<SightRecord>& records) {
-        return landmarks_.update(settings.landmarks, pose, scan, work, records);
+        return landmarks_.update(settings.landmarks, pose, drawn, scan, work, records);
     }
 
     const LandmarkFilter* find(LandmarkId id) const { return landmarks_.find(id); }
