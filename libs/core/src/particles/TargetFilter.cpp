@@ -26,9 +26,9 @@ GaussianPoint pointOf(const TargetGaussian& mode) {
 }
 
 /// The EKF's or unscented filter's update of one mode; log of its likelihood.
-double correct(TargetGaussian& mode, const Vector3& pose, const TargetSight& sight, GaussianTransform transform) {
+double correct(TargetGaussian& mode, const SensorPlace& sensor, const TargetSight& sight, GaussianTransform transform) {
     const GaussianPoint point = pointOf(mode);
-    const PointSight expected = sightOf(point, placeOf(pose, sight.sensor), transform);
+    const PointSight expected = sightOf(point, sensor, transform);
     const PointInnovation innovation(expected, sight.z, sight.R);
     // All that is known of the mover meets the detection through its position.
     const Eigen::Matrix<double, 6, 2> with_z =
@@ -79,10 +79,11 @@ void TargetFilter::predict(const TargetSettings& settings, const TargetStep& ste
 }
 
 double TargetFilter::update(const TargetSettings& settings, const Vector3& pose, const TargetSight& sight) {
+    const SensorPlace sensor = placeOf(pose, sight.sensor);
     Eigen::VectorXd log_mu(mu_.size());
     for (Eigen::Index j = 0; j < mu_.size(); ++j)
         log_mu(j) =
-            std::log(mu_(j)) + correct(modes_[static_cast<std::size_t>(j)], pose, sight, settings.transform);
+            std::log(mu_(j)) + correct(modes_[static_cast<std::size_t>(j)], sensor, sight, settings.transform);
     const double largest = log_mu.maxCoeff();
     mu_ = (log_mu.array() - largest).exp();
     const double sum = mu_.sum();

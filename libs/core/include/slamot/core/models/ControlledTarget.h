@@ -40,7 +40,7 @@ struct ControlledTarget {
     double turn_rate_std = radians(2.0);     ///< [rad/s]
     double noise_interval = 0;               ///< [s], TargetModel's
     ControlledPath path = ControlledPath::arc;
-    int headings = 12;                       ///< equally likely ones at first sight
+    int headings = 8;                        ///< equally likely ones at first sight
 };
 
 ParameterTable describe(ControlledTarget& parameters, const std::string& section);
