@@ -33,13 +33,17 @@ PairGraph graphOf(const AssociationProblem& problem, const Cluster& cluster,
 
 AssociationMarginals associationMarginals(const AssociationProblem& problem, const DetectionModel& model,
                                           int state_budget) {
-    const std::vector<double> ratios = logPairRatios(problem, model);
+    return associationMarginals(problem, logPairRatios(problem, model), state_budget);
+}
+
+AssociationMarginals associationMarginals(const AssociationProblem& problem,
+                                          const std::vector<double>& log_ratios, int state_budget) {
     AssociationMarginals out;
     out.pair.resize(static_cast<std::size_t>(problem.candidates()));
     out.none.assign(static_cast<std::size_t>(problem.detections()), 1.0);
     out.missed.assign(static_cast<std::size_t>(problem.objects()), 1.0);
     for (const Cluster& cluster : clusters(problem)) {
-        const PairGraph graph = graphOf(problem, cluster, ratios);
+        const PairGraph graph = graphOf(problem, cluster, log_ratios);
         std::optional<PairMarginals> found = exactMarginals(graph, state_budget);
         if (found) {
             out.states += found->cost;
@@ -48,6 +52,7 @@ AssociationMarginals associationMarginals(const AssociationProblem& problem, con
             out.rounds += found->cost;
             ++out.approximated;
         }
+        out.log_sum += found->log_sum;
         for (int row = 0; row < graph.rows; ++row) {
             const int detection = cluster.detections[static_cast<std::size_t>(row)];
             out.none[static_cast<std::size_t>(detection)] = found->none[static_cast<std::size_t>(row)];
