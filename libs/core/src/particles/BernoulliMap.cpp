@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "StandingSensor.h"
 #include "slamot/core/association/AssociationMarginals.h"
 #include "slamot/core/association/ChiSquare.h"
-#include "slamot/core/objects/FieldOfView.h"
 
 namespace slamot {
 namespace {
@@ -16,35 +16,13 @@ bool operator==(Place a, Place b) {
     return a.page == b.page && a.item == b.item;
 }
 
-/// Beyond a sensor's limits by these a feature may still be detected, since poses and limits are not that exact.
-constexpr double range_rim = 0.3, bearing_rim = 0.04;  // [m], [rad]; standard deviations
-constexpr double widest_rim = 4;                       ///< of these
-constexpr double least_in_view = 0.02;                 ///< within that, whatever the limits say
-
 /// Pairs less likely than this are left out of the mixture: they would move nothing.
-constexpr double least_pair = 1e-6;
+constexpr double least_pair = 1e-8;
 
-/// Cheap: false for what lies clearly beside the field of view.
-bool mayBeInView(const Vector3& pose, const ScanView& view, const GaussianPoint& point) {
-    const Vector2 rel = point.mean - pose.head<2>() - rotation(pose.z()) * view.sensor.pose.position();
-    const double spread = widest_rim * (range_rim + std::sqrt(point.covariance.trace())), range = rel.norm();
-    if (range > view.sensor.max_range + spread) return false;
-    const double half =
-        0.5 * view.sensor.field_of_view + widest_rim * bearing_rim + (range > spread ? spread / range : pi);
-    if (half >= pi) return true;
-    const double direction = pose.z() + view.sensor.pose.theta;
-    return rel.x() * std::cos(direction) + rel.y() * std::sin(direction) >= range * std::cos(half);
-}
-
-double inView(const RangeBearingSensor& sensor, const PointSight& sight) {
-    Matrix2 spread = sight.covariance;
-    spread(0, 0) += range_rim * range_rim;
-    spread(1, 1) += bearing_rim * bearing_rim;
-    return std::max(probabilityInView(sensor, {sight.z, spread}), least_in_view);
-}
-
-bool rowsLieWithin(double gate, const Vector2& residual, const Matrix2& S) {
-    return residual.x() * residual.x() <= gate * S(0, 0) && residual.y() * residual.y() <= gate * S(1, 1);
+/// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
+double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, const ScanSight& sight) {
+    const double seen = near.detection * near.existence.visibility();
+    return std::log(seen / (sight.unexplained * (1 - seen))) + innovation.log_likelihood;
 }
 
 }  // namespace
@@ -60,45 +38,53 @@ void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, co
     const LifeParameters& life = settings.parameters.life;
     const ScanView& view = scan.views[static_cast<std::size_t>(number)];
     work.near.clear();
+    work.view = number;
     const auto toldByName = [&](const BernoulliFeature& feature) {
         return std::any_of(scan.sights.begin(), scan.sights.end(),
                            [&](const ScanSight& sight) { return sight.known_as == feature.id; });
     };
-    const double radius = view.reach + widest_rim * range_rim;
-    features_.forEachNear(pose.mean.head<2>(), radius, [&](Place place, const BernoulliFeature& feature) {
-        if (!mayBeInView(pose.mean, view, feature.point)) return;
+    const StandingSensor sensor(pose, view);
+    features_.forEachNear(sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
+        if (!sensor.mayShow(feature.point)) return;
         if (feature.source.valid() && toldByName(feature)) return;
-        const PointSight sight = sightOf(feature.point, pose, view.sensor.pose, GaussianTransform::linear);
-        Existence existence = feature.existence;
-        existence.pass(secondsBetween(feature.looked, scan.now), life);
-        work.near.push_back({place, feature.point, sight, existence,
-                             life.detection_probability * inView(view.sensor, sight), FeatureMixture()});
+        work.near.push_back({place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
+        Work::Near& near = work.near.back();
+        near.detection = life.detection_probability * sensor.inView(near.sight);
+        near.existence.pass(secondsBetween(feature.looked, scan.now), life);
     });
 }
 
-void BernoulliMap::findCandidates(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
-                                  int number, Work& work) const {
-    const Pose2& sensor = scan.views[static_cast<std::size_t>(number)].sensor.pose;
+void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& scan, Work& work) {
     work.candidates.clear();
     work.log_ratios.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
-        if (sight.view != number || sight.named()) continue;
+        if (sight.view != work.view || sight.named()) continue;
         for (std::size_t n = 0; n < work.near.size(); ++n) {
-            Work::Near& near = work.near[n];
-            const Vector2 residual = rangeBearingResidual(sight.z, near.sight.z);
-            if (!rowsLieWithin(settings.gate, residual, near.sight.covariance + sight.R)) continue;
-            if (settings.transform != GaussianTransform::linear && pose.isPoint())
-                near.sight = sightOf(near.point, pose.mean, sensor, settings.transform);
+            const Work::Near& near = work.near[n];
+            // Most fail here.
+            const double farther = sight.z.x() - near.sight.z.x();
+            if (farther * farther > settings.gate * (near.sight.covariance(0, 0) + sight.R(0, 0))) continue;
             const PointInnovation innovation(near.sight, sight.z, sight.R);
-            if (innovation.nis > settings.gate) continue;
-            const double seen = near.detection * near.existence.visibility();
-            if (!(seen > 0)) continue;
+            if (innovation.nis > settings.gate || !(near.existence.visibility() > 0)) continue;
             work.candidates.push_back(
                 {static_cast<int>(s), static_cast<int>(n), innovation.nis, innovation.log_likelihood});
-            work.log_ratios.push_back(std::log(seen) + innovation.log_likelihood - std::log(sight.unexplained) -
-                                      std::log1p(-seen));
+            work.log_ratios.push_back(logRatio(near, innovation, sight));
         }
+    }
+}
+
+void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work) {
+    for (std::size_t c = 0; c < work.candidates.size(); ++c) {
+        Candidate& pair = work.candidates[c];
+        const ScanSight& sight = scan.sights[static_cast<std::size_t>(pair.detection)];
+        Work::Near& near = work.near[static_cast<std::size_t>(pair.object)];
+        if (!near.at_pose) near.sight = sightOf(near.point, pose, scan.sensorOf(sight), settings.transform);
+        near.at_pose = true;
+        const PointInnovation innovation(near.sight, sight.z, sight.R);
+        pair.nis = innovation.nis;
+        pair.log_likelihood = innovation.log_likelihood;
+        work.log_ratios[c] = logRatio(near, innovation, sight);
     }
 }
 
@@ -122,7 +108,7 @@ void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, cons
     for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
         if (!scan.views[static_cast<std::size_t>(view)].nameless) continue;
         findNear(settings, pose, scan, view, work);
-        findCandidates(settings, pose, scan, view, work);
+        findCandidates(settings, scan, work);
         const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
                                          work.candidates);
         const AssociationMarginals marginals =
@@ -200,9 +186,12 @@ double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, 
 
 double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
                                     Work& work, std::vector<SightRecord>& records, std::vector<double>& none) {
-    const PoseBelief at{pose, Matrix3::Zero()};
-    findNear(settings, at, scan, view, work);
-    findCandidates(settings, at, scan, view, work);
+    // The only view was looked through for the pairs. Another may see what the one before has started.
+    if (scan.views.size() > 1) {
+        findNear(settings, {pose, Matrix3::Zero()}, scan, view, work);
+        findCandidates(settings, scan, work);
+    }
+    lookAgain(settings, pose, scan, work);
     const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
                                      work.candidates);
     const AssociationMarginals marginals =
@@ -217,34 +206,37 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
         log_likelihood += std::log(sight.unexplained);
         none[s] = marginals.none[s];
     }
+    work.mixtures.assign(work.near.size(), {});
     for (int c = 0; c < problem.candidates(); ++c) {
         const double p = marginals.pair[static_cast<std::size_t>(c)];
         if (p < least_pair) continue;
         const auto s = static_cast<std::size_t>(problem.candidate(c).detection);
         const ScanSight& sight = scan.sights[s];
-        Work::Near& near = work.near[static_cast<std::size_t>(problem.candidate(c).object)];
+        const auto n = static_cast<std::size_t>(problem.candidate(c).object);
+        const Work::Near& near = work.near[n];
         GaussianPoint point = near.point;
         slamot::update(point, near.sight, PointInnovation(near.sight, sight.z, sight.R));
-        near.mixture.add(p, point);
+        work.mixtures[n].add(p, point);
         const BernoulliFeature& feature = features_.at(near.place);
         if (records[s].landmark == feature.id)
             records[s].outcome = isConfirmed(settings, feature) ? Outcome::updated : Outcome::tentative;
     }
     for (std::size_t n = 0; n < work.near.size(); ++n)
-        take(settings, scan.now, marginals.missed[n], work.near[n], work);
+        take(settings, scan.now, marginals.missed[n], n, work);
     return log_likelihood;
 }
 
-void BernoulliMap::take(const Settings& settings, Stamp now, double missed, Work::Near& near, Work& work) {
-    const double seen = near.detection * near.existence.visibility();
+void BernoulliMap::take(const Settings& settings, Stamp now, double missed, std::size_t n, Work& work) {
+    const Work::Near& near = work.near[n];
     BernoulliFeature& feature = features_.write(near.place);
     feature.existence = near.existence;
     feature.existence.detectedPerhaps(1 - missed, near.detection);
     feature.looked = now;
-    if (missed < 1) {
+    if (missed < 1 - 100 * least_pair) {
+        const double seen = near.detection * near.existence.visibility();
         const double there = missed * (near.existence.probability() - seen) / (1 - seen);
-        if (there > least_pair) near.mixture.add(there, near.point);
-        feature.point = near.mixture.moments();
+        if (there > 100 * least_pair) work.mixtures[n].add(there, near.point);
+        feature.point = work.mixtures[n].moments();
         features_.moved(near.place);
     }
     if (missed < 0.5) {

@@ -13,9 +13,20 @@ Matrix2 lowerFactor(const Matrix2& P) {
     return (Matrix2() << a, 0, b, std::sqrt(std::max(P(1, 1) - b * b, 0.0))).finished();
 }
 
-Vector2 seenAt(const Vector3& pose, const Vector2& point, const Pose2& sensor) {
-    return rangeBearing<double>(pose, point, sensor);
-}
+/// A sensor in the world: sines and cosines of one pose serve many points.
+struct PlacedSensor {
+    PlacedSensor(const Vector3& pose, const Pose2& sensor)
+        : position(pose.head<2>()), direction(pose.z() + sensor.theta) {
+        if (sensor.x != 0 || sensor.y != 0) position += rotation(pose.z()) * sensor.position();
+    }
+    Vector2 sees(const Vector2& point) const {
+        const Vector2 rel = point - position;
+        return {rel.norm(), wrapAngle(std::atan2(rel.y(), rel.x()) - direction)};
+    }
+
+    Vector2 position;
+    double direction;
+};
 
 /// Sums over sigma points that lie in pairs +-reach e_i: mean, covariance, and covariance with e_i.
 template <int Dimensions>
@@ -47,20 +58,22 @@ struct SigmaSums {
 
 PointSight unscentedSight(const GaussianPoint& point, const PoseBelief& pose, const Pose2& sensor) {
     const Matrix2 L = lowerFactor(point.covariance);
-    const Vector2 centre = seenAt(pose.mean, point.mean, sensor);
+    const PlacedSensor at_mean(pose.mean, sensor);
+    const Vector2 centre = at_mean.sees(point.mean);
     const SigmaSums<5> sums(centre, [&](int i, double side) {
-        return i < 3 ? rangeBearingResidual(
-                           seenAt(pose.mean + side * pose.factor.col(i), point.mean, sensor), centre)
-                     : rangeBearingResidual(seenAt(pose.mean, point.mean + side * L.col(i - 3), sensor), centre);
+        const Vector2 seen = i < 3 ? PlacedSensor(pose.mean + side * pose.factor.col(i), sensor).sees(point.mean)
+                                   : at_mean.sees(point.mean + side * L.col(i - 3));
+        return rangeBearingResidual(seen, centre);
     });
     return {sums.mean, sums.covariance, sums.with.leftCols<3>(), L * sums.with.rightCols<2>().transpose()};
 }
 
 PointSight unscentedSight(const GaussianPoint& point, const Vector3& pose, const Pose2& sensor) {
     const Matrix2 L = lowerFactor(point.covariance);
-    const Vector2 centre = seenAt(pose, point.mean, sensor);
+    const PlacedSensor at(pose, sensor);
+    const Vector2 centre = at.sees(point.mean);
     const SigmaSums<2> sums(centre, [&](int i, double side) {
-        return rangeBearingResidual(seenAt(pose, point.mean + side * L.col(i), sensor), centre);
+        return rangeBearingResidual(at.sees(point.mean + side * L.col(i)), centre);
     });
     return {sums.mean, sums.covariance, Eigen::Matrix<double, 2, 3>::Zero(), L * sums.with.transpose()};
 }

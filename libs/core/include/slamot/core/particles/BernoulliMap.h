@@ -59,10 +59,10 @@ class BernoulliMap {
         struct Near {
             Place place;
             GaussianPoint point;
-            PointSight sight;
             Existence existence;
             double detection;  ///< probability that it is detected, if it is visible
-            FeatureMixture mixture;
+            PointSight sight;
+            bool at_pose;  ///< whether `sight` is from the drawn pose
         };
         /// A detection that is of a feature with that probability, at the predicted pose.
         struct Pair {
@@ -70,10 +70,12 @@ class BernoulliMap {
             double probability;
             GaussianPoint point;
         };
+        int view = -1;  ///< that what follows is of
         std::vector<Near> near;
         std::vector<Candidate> candidates;
         std::vector<double> log_ratios;  ///< by candidate
         std::vector<Pair> pairs;
+        std::vector<FeatureMixture> mixtures;  ///< by near feature
         std::vector<Place> lost;
     };
 
@@ -105,13 +107,13 @@ class BernoulliMap {
   private:
     void findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int view,
                   Work& work) const;
-    void findCandidates(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int view,
-                        Work& work) const;
+    static void findCandidates(const Settings& settings, const ParticleScan& scan, Work& work);
+    static void lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work);
     double updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
                        std::vector<SightRecord>& records);
     double updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view, Work& work,
                           std::vector<SightRecord>& records, std::vector<double>& none);
-    void take(const Settings& settings, Stamp now, double missed, Work::Near& near, Work& work);
+    void take(const Settings& settings, Stamp now, double missed, std::size_t near, Work& work);
     void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
                double probability);
     void letGo(const Settings& settings, Stamp now, Work& work);
