@@ -23,6 +23,7 @@ AssociationMarginals bruteForce(const AssociationProblem& problem, const Detecti
         for (const int c : pairs) out.pair[static_cast<std::size_t>(c)] += weight;
     });
     for (double& p : out.pair) p /= total;
+    out.log_sum = std::log(total);
     out.none.assign(static_cast<std::size_t>(problem.detections()), 1);
     out.missed.assign(static_cast<std::size_t>(problem.objects()), 1);
     for (int c = 0; c < problem.candidates(); ++c) {
@@ -71,7 +72,9 @@ TEST(AssociationMarginals, ExactAgreesWithBruteForce) {
         const AssociationMarginals found = associationMarginals(problem, model, unlimited);
         ASSERT_EQ(found.approximated, 0);
         // Sums of up to a few thousand positive terms, and 1 minus a few of them.
-        ASSERT_LT(largestDifference(found, bruteForce(problem, model)), 1e-12) << trial;
+        const AssociationMarginals all = bruteForce(problem, model);
+        ASSERT_LT(largestDifference(found, all), 1e-12) << trial;
+        ASSERT_NEAR(found.log_sum, all.log_sum, 1e-12 * (1 + std::abs(all.log_sum))) << trial;
     }
 }
 
@@ -81,19 +84,23 @@ TEST(AssociationMarginals, OnePairByHand) {
     EXPECT_NEAR(found.pair[0], 0.75, 1e-15);
     EXPECT_NEAR(found.none[0], 0.25, 1e-15);
     EXPECT_NEAR(found.missed[0], 0.25, 1e-15);
+    EXPECT_NEAR(found.log_sum, std::log(4.0), 1e-15);
 }
 
 TEST(AssociationMarginals, TwoByTwoByHand) {
     // Odds 1 everywhere: 1 + 4 + 2 hypotheses of equal weight, each pair in 1 + 1 of them. Belief
-    // propagation's fixed point is mu = nu = 1 / (1 + nu), the golden section, so a pair has mu nu / (1 + mu
-    // nu).
+    // propagation's fixed point is mu = nu = 1 / (1 + nu), the golden section g, so a pair has mu nu / (1 + mu
+    // nu), and Bethe's sum is ((1 + 2 g) / (1 + g^2))^4 = 6.85 instead of 7.
     const Odds odds = withOdds(2, 2, {{0, 0, 1.0}, {0, 1, 1.0}, {1, 0, 1.0}, {1, 1, 1.0}});
-    for (const double p : associationMarginals(odds.problem, odds.model, unlimited).pair)
-        EXPECT_NEAR(p, 2.0 / 7.0, 1e-15);
+    const AssociationMarginals exact = associationMarginals(odds.problem, odds.model, unlimited);
+    for (const double p : exact.pair) EXPECT_NEAR(p, 2.0 / 7.0, 1e-15);
+    EXPECT_NEAR(exact.log_sum, std::log(7.0), 1e-15);
     const AssociationMarginals approximate = associationMarginals(odds.problem, odds.model, loopy);
     EXPECT_EQ(approximate.approximated, 1);
     // Rounds end when marginals move by less than 1e-9; each shrinks the error by more than two here.
     for (const double p : approximate.pair) EXPECT_NEAR(p, (5 - std::sqrt(5.0)) / 10, 1e-9);
+    const double g = (std::sqrt(5.0) - 1) / 2;
+    EXPECT_NEAR(approximate.log_sum, 4 * std::log((1 + 2 * g) / (1 + g * g)), 1e-8);
 }
 
 TEST(AssociationMarginals, BeliefPropagationIsExactWithoutCycles) {
@@ -118,7 +125,9 @@ TEST(AssociationMarginals, BeliefPropagationIsExactWithoutCycles) {
         const AssociationMarginals found = associationMarginals(problem, model, loopy);
         approximated += found.approximated;
         // Messages are final after as many rounds as the tree is long; the last one moves nothing.
-        ASSERT_LT(largestDifference(found, bruteForce(problem, model)), 1e-12) << trial;
+        const AssociationMarginals all = bruteForce(problem, model);
+        ASSERT_LT(largestDifference(found, all), 1e-12) << trial;
+        ASSERT_NEAR(found.log_sum, all.log_sum, 1e-12 * (1 + std::abs(all.log_sum))) << trial;
     }
     EXPECT_EQ(approximated, 200);
 }

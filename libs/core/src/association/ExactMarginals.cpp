@@ -26,7 +26,8 @@ struct Option {
 struct Stage {
     int row;
     std::vector<Option> options;
-    Mask open;  ///< objects that matter to later stages
+    Weight log_scale;  ///< weights are relative to the exponential of this
+    Mask open;         ///< objects that matter to later stages
 };
 
 /// The next row is the one that leaves the fewest objects open. Each object has a bit from its first row to
@@ -56,11 +57,12 @@ std::optional<std::vector<Stage>> stages(const PairGraph& graph) {
         }
         done[static_cast<std::size_t>(next)] = 1;
 
-        Stage stage{next, {}, 0};
+        Stage stage{next, {}, 0, 0};
         Weight largest = 0;  // log weight of the heaviest option: weights are taken relative to it
         edgesOf(next, [&](int e, std::size_t) {
             largest = std::max<Weight>(largest, graph.edges[static_cast<std::size_t>(e)].log_weight);
         });
+        stage.log_scale = largest;
         stage.options.push_back({0, std::exp(-largest), -1});
         bool room = true;
         edgesOf(next, [&](int e, std::size_t o) {
@@ -90,13 +92,16 @@ struct States {
     }
 };
 
-void normalise(std::vector<Weight>& weights) {
+/// Returns what they summed to.
+Weight normalise(std::vector<Weight>& weights) {
     Weight sum = 0;
     for (const Weight w : weights) sum += w;
     for (Weight& w : weights) w /= sum;
+    return sum;
 }
 
-States advance(const States& from, const Stage& stage) {
+/// Adds the log of the factor by which the sum over all ways has grown.
+States advance(const States& from, const Stage& stage, Weight& log_sum) {
     std::vector<std::pair<Mask, Weight>> ways;
     for (std::size_t s = 0; s < from.taken.size(); ++s)
         for (const Option& option : stage.options)
@@ -112,7 +117,7 @@ States advance(const States& from, const Stage& stage) {
         }
         to.in.back() += weight;
     }
-    normalise(to.in);
+    log_sum += stage.log_scale + std::log(normalise(to.in));
     return to;
 }
 
@@ -127,12 +132,14 @@ std::optional<PairMarginals> exactMarginals(const PairGraph& graph, int state_bu
     if (!path) return std::nullopt;
 
     std::vector<States> states{{{0}, {1}, {}}};
+    Weight log_sum = 0;
     for (const Stage& stage : *path) {
-        states.push_back(advance(states.back(), stage));
+        states.push_back(advance(states.back(), stage, log_sum));
         result.cost += static_cast<int>(states.back().taken.size());
         if (result.cost > state_budget) return std::nullopt;
     }
     states.back().out = {1};
+    result.log_sum = static_cast<double>(log_sum);
 
     for (std::size_t i = path->size(); i-- > 0;) {
         const Stage& stage = (*path)[i];

@@ -1,6 +1,9 @@
 // Loopy belief propagation: J. L. Williams and R. A. Lau, Approximate evaluation of marginal association
 // probabilities with belief propagation, IEEE Transactions on Aerospace and Electronic Systems 50(4), 2014,
 // where it is proved to converge. Ends when no marginal moves by more than `steady`, or after `most_rounds`.
+// The sum over all pairings from the messages is Bethe's (J. S. Yedidia, W. T. Freeman and Y. Weiss, IEEE
+// Transactions on Information Theory 51(7), 2005): product over rows and columns of what each sums to given its
+// messages, over that of the edges.
 #include <algorithm>
 #include <cmath>
 
@@ -66,7 +69,14 @@ PairMarginals loopyMarginals(const PairGraph& graph) {
         double sum = 1;
         for (const std::size_t e : of_row[row]) sum += mu[e];
         result.none[row] = 1 / sum;
+        result.log_sum += std::log(sum);
     }
+    for (const auto& edges : of_column) {
+        double sum = 1;
+        for (const std::size_t e : edges) sum += psi[e] * phi[e];
+        result.log_sum += std::log(sum);
+    }
+    for (std::size_t e = 0; e < count; ++e) result.log_sum -= std::log1p(mu[e] * phi[e]);
     return result;
 }
 

@@ -18,13 +18,14 @@ struct PairGraph {
 /// Probabilities over all pairings: of each edge, and of each row to have none.
 struct PairMarginals {
     std::vector<double> edge, none;
+    double log_sum = 0;  ///< log of the sum of all pairings' weights; the pairing of none weighs 1
     int cost = 0;  ///< states or rounds
 };
 
 /// By sums over sets of objects already taken; nothing when that needs more than `state_budget` states.
 std::optional<PairMarginals> exactMarginals(const PairGraph& graph, int state_budget);
 
-/// By loopy belief propagation: exact where the graph has no cycles.
+/// By loopy belief propagation: exact where the graph has no cycles. The sum is Bethe's approximation.
 PairMarginals loopyMarginals(const PairGraph& graph);
 
 }  // namespace slamot

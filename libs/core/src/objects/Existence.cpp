@@ -54,6 +54,19 @@ void Existence::missed(double detection_probability) {
     weigh(1.0 - detection_probability);
 }
 
+void Existence::detectedPerhaps(double p, double detection_probability) {
+    if (certain_) return;
+    missed(detection_probability);
+    visible_ = p + (1 - p) * visible_;
+    hidden_ *= 1 - p;
+}
+
+void Existence::newWithProbability(double p) {
+    if (certain_) return;
+    visible_ *= p;
+    hidden_ *= p;
+}
+
 bool Existence::confirmed(const LifeParameters& p) const {
     return certain_ || probability() >= p.confirm_probability;
 }

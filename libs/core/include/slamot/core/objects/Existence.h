@@ -39,6 +39,10 @@ class Existence {
     /// Not detected, where it would have been, if visible, with that probability, which is below 1: P_D times
     /// the probability that it is in view.
     void missed(double detection_probability);
+    /// Detected with probability `p`, else missed as above: the mixture of both.
+    void detectedPerhaps(double p, double detection_probability);
+    /// What it was started with came from something known with probability 1 - p: then it is not there.
+    void newWithProbability(double p);
 
     /// Visible or hidden.
     double probability() const { return visible_ + hidden_; }

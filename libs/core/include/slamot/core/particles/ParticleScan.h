@@ -41,7 +41,7 @@ struct ScanView {
 
 struct ParticleScan {
     Stamp now;
-    std::vector<ScanSight> sights;
+    std::vector<ScanSight> sights;  ///< view after view; their numbers at birth ascend
     std::vector<ScanView> views;
     double reach = 0;       ///< [m], the largest of the views'
     bool nameless = false;  ///< whether any view is

@@ -1,0 +1,125 @@
+#pragma once
+// One particle's map as a Poisson multi-Bernoulli density: features that exist with a probability and have a Gaussian
+// position, independent of one another, and a Poisson number of features not detected yet. One step is that of the
+// track-oriented marginal filter TOMB/P (J. L. Williams, IEEE Transactions on Aerospace and Electronic Systems 51(3),
+// 2015, section IV.B): a detection is of each feature, of something new or false with its probability over all
+// pairings, and each feature becomes the mixture of what it would be with each of them. doc/plugins/pmb_ufastslam.md.
+#include <vector>
+
+#include "slamot/core/association/AssociationProblem.h"
+#include "slamot/core/config/Parameters.h"
+#include "slamot/core/data/Estimate.h"
+#include "slamot/core/objects/Existence.h"
+#include "slamot/core/particles/MixedEstimate.h"
+#include "slamot/core/particles/ParticleScan.h"
+#include "slamot/core/particles/PointSight.h"
+#include "slamot/core/particles/SharedPages.h"
+
+namespace slamot {
+
+struct BernoulliMapParameters {
+    bool use_nameless = true;  ///< false: detections without identity are ignored
+    double gate_probability = 1 - 1e-6;
+    /// A feature refines the pose where its detection comes from it with this probability at least.
+    double pose_probability = 0.9;
+    int state_budget = 500;  ///< of exact sums over the pairings of a cluster
+    LifeParameters life;
+    double max_unseen = 5;  ///< [s]; a feature that is not confirmed and not seen for longer is let go
+};
+
+/// Tables `[name.association]` and `[name.landmarks]`.
+std::vector<ParameterTable> describe(BernoulliMapParameters& parameters, const std::string& name);
+
+struct BernoulliFeature {
+    LandmarkId id;
+    GaussianPoint point;
+    SourceId source;
+    Existence existence = Existence::certain();
+    std::int64_t seen = 1;
+    Stamp first_seen, last_seen;
+    Stamp looked;  ///< when its existence was judged last
+
+    double existenceProbability() const { return existence.probability(); }
+};
+
+class BernoulliMap {
+  public:
+    using Place = SharedPages<BernoulliFeature>::Place;
+
+    /// What all particles' maps have in common.
+    struct Settings {
+        Settings(const BernoulliMapParameters& parameters, GaussianTransform transform);
+        BernoulliMapParameters parameters;
+        GaussianTransform transform;
+        double gate;  ///< of the NIS
+    };
+    /// Room for one update, used again for the next particle.
+    struct Work {
+        /// A feature that may be in view.
+        struct Near {
+            Place place;
+            GaussianPoint point;
+            Existence existence;
+            double detection;  ///< probability that it is detected, if it is visible
+            PointSight sight;
+            bool at_pose;  ///< whether `sight` is from the drawn pose
+        };
+        /// A detection that is of a feature with that probability, at the predicted pose.
+        struct Pair {
+            int sight;
+            double probability;
+            GaussianPoint point;
+        };
+        int view = -1;  ///< that what follows is of
+        std::vector<Near> near;
+        std::vector<Candidate> candidates;
+        std::vector<double> log_ratios;  ///< by candidate
+        std::vector<Pair> pairs;
+        std::vector<FeatureMixture> mixtures;  ///< by near feature
+        std::vector<Place> lost;
+    };
+
+    void renew(std::uint64_t owner) { features_.renew(owner); }
+
+    /// Probabilities of pairs at the predicted pose; fills `records` by sight with the likeliest.
+    void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
+                std::vector<SightRecord>& records) const;
+    /// The pose with what the pairs beyond doubt say of it, sight after sight.
+    void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
+    /// Takes the scan in at a known pose. Returns the log of its likelihood given the map before: of the sum over all
+    /// pairings, exact in clusters within the state budget, Bethe's approximation in others; up to a term that all
+    /// poses share.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
+                  std::vector<SightRecord>& records);
+
+    const BernoulliFeature* find(LandmarkId id) const { return features_.find(id); }
+    static bool isConfirmed(const Settings& settings, const BernoulliFeature& feature) {
+        return feature.existence.confirmed(settings.parameters.life);
+    }
+    template <class Visit>
+    void forEachConfirmed(const Settings& settings, const Visit& visit) const {
+        features_.forEach([&](const BernoulliFeature& feature) {
+            if (isConfirmed(settings, feature)) visit(feature);
+        });
+    }
+    const SharedPages<BernoulliFeature>& features() const { return features_; }
+
+  private:
+    void findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int view,
+                  Work& work) const;
+    static void findCandidates(const Settings& settings, const ParticleScan& scan, Work& work);
+    static void lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work);
+    double updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
+                       std::vector<SightRecord>& records);
+    double updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view, Work& work,
+                          std::vector<SightRecord>& records, std::vector<double>& none);
+    void take(const Settings& settings, Stamp now, double missed, std::size_t near, Work& work);
+    void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
+               double probability);
+    void letGo(const Settings& settings, Stamp now, Work& work);
+
+    SharedPages<BernoulliFeature> features_;
+    int swept_ = 0;  ///< page to be looked through next for what was never confirmed
+};
+
+}  // namespace slamot

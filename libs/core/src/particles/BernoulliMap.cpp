@@ -1,0 +1,302 @@
+#include "slamot/core/particles/BernoulliMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "StandingSensor.h"
+#include "slamot/core/association/AssociationMarginals.h"
+#include "slamot/core/association/ChiSquare.h"
+
+namespace slamot {
+namespace {
+
+using Place = BernoulliMap::Place;
+
+bool operator==(Place a, Place b) {
+    return a.page == b.page && a.item == b.item;
+}
+
+/// Pairs less likely than this are left out of the mixture: they would move nothing.
+constexpr double least_pair = 1e-8;
+
+/// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
+double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, const ScanSight& sight) {
+    const double seen = near.detection * near.existence.visibility();
+    return std::log(seen / (1 - seen)) - sight.log_unexplained + innovation.logLikelihood();
+}
+
+}  // namespace
+
+BernoulliMap::Settings::Settings(const BernoulliMapParameters& p, GaussianTransform t)
+    : parameters(p), transform(t), gate(chiSquareQuantile(p.gate_probability, 2)) {}
+
+// --- which detection may be of what
+// ---------------------------------------------------------------------------------------------------
+
+void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int number,
+                            Work& work) const {
+    const LifeParameters& life = settings.parameters.life;
+    const ScanView& view = scan.views[static_cast<std::size_t>(number)];
+    work.near.clear();
+    work.view = number;
+    const auto toldByName = [&](const BernoulliFeature& feature) {
+        return std::any_of(scan.sights.begin(), scan.sights.end(),
+                           [&](const ScanSight& sight) { return sight.known_as == feature.id; });
+    };
+    const StandingSensor sensor(pose, view);
+    features_.forEachNear(sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
+        if (!sensor.mayShow(feature.point)) return;
+        if (feature.source.valid() && toldByName(feature)) return;
+        work.near.push_back({place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
+        Work::Near& near = work.near.back();
+        near.detection = life.detection_probability * sensor.inView(near.sight);
+        near.existence.pass(secondsBetween(feature.looked, scan.now), life);
+    });
+}
+
+void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& scan, Work& work) {
+    work.candidates.clear();
+    work.log_ratios.clear();
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.view != work.view || sight.named()) continue;
+        for (std::size_t n = 0; n < work.near.size(); ++n) {
+            const Work::Near& near = work.near[n];
+            // Most fail here.
+            const double farther = sight.z.x() - near.sight.z.x();
+            if (farther * farther > settings.gate * (near.sight.covariance(0, 0) + sight.R(0, 0))) continue;
+            const PointInnovation innovation(near.sight, sight.z, sight.R);
+            if (innovation.nis > settings.gate || !(near.existence.visibility() > 0)) continue;
+            work.candidates.push_back(
+                {static_cast<int>(s), static_cast<int>(n), innovation.nis, innovation.logLikelihood()});
+            work.log_ratios.push_back(logRatio(near, innovation, sight));
+        }
+    }
+}
+
+void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work) {
+    for (std::size_t c = 0; c < work.candidates.size(); ++c) {
+        Candidate& pair = work.candidates[c];
+        const ScanSight& sight = scan.sights[static_cast<std::size_t>(pair.detection)];
+        Work::Near& near = work.near[static_cast<std::size_t>(pair.object)];
+        if (!near.at_pose) near.sight = sightOf(near.point, placeOf(pose, scan.sensorOf(sight)), settings.transform);
+        near.at_pose = true;
+        const PointInnovation innovation(near.sight, sight.z, sight.R);
+        pair.nis = innovation.nis;
+        pair.log_likelihood = innovation.logLikelihood();
+        work.log_ratios[c] = logRatio(near, innovation, sight);
+    }
+}
+
+void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
+                          std::vector<SightRecord>& records) const {
+    work.pairs.clear();
+    records.assign(scan.sights.size(), {});
+    std::vector<double> best(scan.sights.size(), 0);
+    const auto tell = [&](std::size_t s, LandmarkId id, const PointSight& sight) {
+        records[s].landmark = id;
+        records[s].z = sight.z;
+        records[s].S = sight.covariance + scan.sights[s].R;
+    };
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        const BernoulliFeature* feature = sight.known_as.valid() ? find(sight.known_as) : nullptr;
+        if (!feature) continue;
+        work.pairs.push_back({static_cast<int>(s), 1.0, feature->point});
+        tell(s, feature->id, sightOf(feature->point, pose, scan.sensorOf(sight), settings.transform));
+    }
+    for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
+        if (!scan.views[static_cast<std::size_t>(view)].nameless) continue;
+        findNear(settings, pose, scan, view, work);
+        findCandidates(settings, scan, work);
+        const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
+                                         work.candidates);
+        const AssociationMarginals marginals =
+            associationMarginals(problem, work.log_ratios, settings.parameters.state_budget);
+        for (int c = 0; c < problem.candidates(); ++c) {
+            const double p = marginals.pair[static_cast<std::size_t>(c)];
+            const auto s = static_cast<std::size_t>(problem.candidate(c).detection);
+            const Work::Near& near = work.near[static_cast<std::size_t>(problem.candidate(c).object)];
+            if (p > best[s] && p >= 0.5) {
+                best[s] = p;
+                tell(s, features_.at(near.place).id, near.sight);
+            }
+            if (p >= settings.parameters.pose_probability)
+                work.pairs.push_back({static_cast<int>(s), p, near.point});
+        }
+    }
+}
+
+void BernoulliMap::refine(const Settings& settings, const ParticleScan& scan, const Work& work,
+                          RefinedPose& pose) const {
+    for (const Work::Pair& pair : work.pairs) {
+        const ScanSight& sight = scan.sights[static_cast<std::size_t>(pair.sight)];
+        const PointSight expected = sightOf(pair.point, pose.belief(), scan.sensorOf(sight), settings.transform);
+        pose.take(expected, PointInnovation(expected, sight.z, sight.R));
+    }
+}
+
+// --- what the scan says of the map
+// ---------------------------------------------------------------------------------------------------
+
+double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool /*drawn*/, const ParticleScan& scan,
+                            Work& work, std::vector<SightRecord>& records) {
+    double log_likelihood = 0;
+    std::vector<double> none(scan.sights.size());
+    work.lost.clear();
+    for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
+        log_likelihood += updateNamed(settings, pose, scan, view, records);
+        if (scan.views[static_cast<std::size_t>(view)].nameless)
+            log_likelihood += updateNameless(settings, pose, scan, view, work, records, none);
+        for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+            const ScanSight& sight = scan.sights[s];
+            if (sight.view != view) continue;
+            const bool starts =
+                sight.named() ? !sight.known_as.valid() : none[s] >= settings.parameters.life.remove_probability;
+            if (!starts) continue;
+            start(settings, pose, scan, sight, sight.named() ? 1 : none[s]);
+            if (records[s].landmark.valid()) continue;
+            records[s].landmark = sight.birth;
+            records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
+        }
+    }
+    if (scan.nameless) letGo(settings, scan.now, work);
+    return log_likelihood;
+}
+
+double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
+                                 std::vector<SightRecord>& records) {
+    double log_likelihood = 0;
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        Place place;
+        if (sight.view != view || !sight.known_as.valid() || !features_.locate(sight.known_as, place)) continue;
+        BernoulliFeature& feature = features_.write(place);
+        const PointSight expected =
+            sightOf(feature.point, placeOf(pose, scan.sensorOf(sight)), settings.transform);
+        const PointInnovation innovation(expected, sight.z, sight.R);
+        slamot::update(feature.point, expected, innovation);
+        features_.moved(place);
+        ++feature.seen;
+        feature.last_seen = scan.now;
+        records[s].outcome = Outcome::updated;
+        log_likelihood += innovation.logLikelihood();
+    }
+    return log_likelihood;
+}
+
+double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
+                                    Work& work, std::vector<SightRecord>& records, std::vector<double>& none) {
+    // The only view was looked through for the pairs. Another may see what the one before has started.
+    if (scan.views.size() > 1) {
+        findNear(settings, {pose, Matrix3::Zero()}, scan, view, work);
+        findCandidates(settings, scan, work);
+    }
+    lookAgain(settings, pose, scan, work);
+    const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
+                                     work.candidates);
+    const AssociationMarginals marginals =
+        associationMarginals(problem, work.log_ratios, settings.parameters.state_budget);
+
+    double log_likelihood = marginals.log_sum;
+    for (const Work::Near& near : work.near)
+        log_likelihood += std::log1p(-near.detection * near.existence.visibility());
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.view != view || sight.named()) continue;
+        log_likelihood += sight.log_unexplained;
+        none[s] = marginals.none[s];
+    }
+    work.mixtures.assign(work.near.size(), {});
+    for (int c = 0; c < problem.candidates(); ++c) {
+        const double p = marginals.pair[static_cast<std::size_t>(c)];
+        if (p < least_pair) continue;
+        const auto s = static_cast<std::size_t>(problem.candidate(c).detection);
+        const ScanSight& sight = scan.sights[s];
+        const auto n = static_cast<std::size_t>(problem.candidate(c).object);
+        const Work::Near& near = work.near[n];
+        GaussianPoint point = near.point;
+        slamot::update(point, near.sight, PointInnovation(near.sight, sight.z, sight.R));
+        work.mixtures[n].add(p, point);
+        const BernoulliFeature& feature = features_.at(near.place);
+        if (records[s].landmark == feature.id)
+            records[s].outcome = isConfirmed(settings, feature) ? Outcome::updated : Outcome::tentative;
+    }
+    for (std::size_t n = 0; n < work.near.size(); ++n)
+        take(settings, scan.now, marginals.missed[n], n, work);
+    return log_likelihood;
+}
+
+void BernoulliMap::take(const Settings& settings, Stamp now, double missed, std::size_t n, Work& work) {
+    const Work::Near& near = work.near[n];
+    BernoulliFeature& feature = features_.write(near.place);
+    feature.existence = near.existence;
+    feature.existence.detectedPerhaps(1 - missed, near.detection);
+    feature.looked = now;
+    if (missed < 1 - 100 * least_pair) {
+        const double seen = near.detection * near.existence.visibility();
+        const double there = missed * (near.existence.probability() - seen) / (1 - seen);
+        if (there > 100 * least_pair) work.mixtures[n].add(there, near.point);
+        feature.point = work.mixtures[n].moments();
+        features_.moved(near.place);
+    }
+    if (missed < 0.5) {
+        ++feature.seen;
+        feature.last_seen = now;
+    }
+    if (feature.existence.lost(settings.parameters.life)) work.lost.push_back(near.place);
+}
+
+// --- what comes and goes
+// ---------------------------------------------------------------------------------------------------
+
+void BernoulliMap::start(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                         const ScanSight& sight, double probability) {
+    BernoulliFeature feature;
+    feature.id = sight.birth;
+    feature.point = firstSight(placeOf(pose, scan.sensorOf(sight)), sight.z, sight.R, settings.transform);
+    feature.source = sight.source;
+    if (!sight.named()) {
+        feature.existence = Existence(settings.parameters.life);
+        feature.existence.newWithProbability(probability);
+        if (!(feature.existence.probability() > 0)) return;
+    }
+    feature.first_seen = feature.last_seen = feature.looked = scan.now;
+    features_.append(feature);
+}
+
+void BernoulliMap::letGo(const Settings& settings, Stamp now, Work& work) {
+    // Of what was left behind nothing is missed: one page a scan is looked through for it.
+    if (++swept_ >= features_.pages()) swept_ = 0;
+    features_.forEachOfPage(swept_, [&](Place place, const BernoulliFeature& feature) {
+        if (!isConfirmed(settings, feature) &&
+            secondsBetween(feature.last_seen, now) > settings.parameters.max_unseen)
+            work.lost.push_back(place);
+    });
+    std::sort(work.lost.begin(), work.lost.end(),
+              [](Place a, Place b) { return a.page != b.page ? a.page < b.page : a.item < b.item; });
+    work.lost.erase(std::unique(work.lost.begin(), work.lost.end(), [](Place a, Place b) { return a == b; }),
+                    work.lost.end());
+    features_.remove(work.lost);
+}
+
+std::vector<ParameterTable> describe(BernoulliMapParameters& p, const std::string& name) {
+    ParameterTable association(name + ".association", "Which detection is of which landmark, in each particle.");
+    association
+        .choice("landmarks", p.use_nameless, {{"marginal", true}, {"known", false}},
+                "For detections without identity. marginal: of each landmark with its probability over all pairings; "
+                "known: they are ignored.")
+        .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
+              "Part of a landmark's detections that lie inside its gate.")
+        .real("pose_probability", p.pose_probability, "-", Interval::openProbability(),
+              "A landmark refines the pose where its detection comes from it with this probability at least.")
+        .integer("state_budget", p.state_budget, Interval::between(1, 1000000),
+                 "States of the exact sums over pairings at most; beyond, belief propagation approximates them.");
+    ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
+    describe(p.life, "landmarks", landmarks);
+    landmarks.real("max_unseen", p.max_unseen, "s", Interval::positiveOrInfinite(),
+                   "A landmark that is not confirmed and not seen for longer is let go.");
+    return {association, landmarks};
+}
+
+}  // namespace slamot
