@@ -1,40 +1,25 @@
 #pragma once
 #include <slamot/core/particles/LandmarkFilters.h>
 #include <slamot/core/particles/ParticleFilter.h>
-#include <slamot/core/plugin/Estimator.h>
-
-#include <memory>
+#include <slamot/core/plugin/ParticleEstimator.h>
 
 namespace slamot {
 
 /// UFastSLAM (paper 4, section 3): particles whose poses are drawn from an unscented filter of motion and scan, with
 /// an unscented filter for each landmark.
-class Ufastslam : public Estimator {
+class Ufastslam : public ParticleEstimator<ParticleFilter<LandmarkFilters>> {
     DEFINE_MRPT_OBJECT(Ufastslam, slamot)
 
   public:
     std::string name() const override { return "ufastslam"; }
-    std::string missingInOdometry(const OdometryIncrement& odometry) const override {
-        return missingField(motion_, odometry);
-    }
 
   protected:
     std::vector<ParameterTable> onParameters() override;
     void onStart(const Start& start) override;
-    void onPredict(const OdometryIncrement& odometry) override { filter_->predict(odometry); }
-    UpdateReport onUpdate(const DetectionSet& detections) override { return filter_->update(detections); }
-    PoseGaussian onRobot() const override { return filter_->robot(); }
-    std::vector<LandmarkEstimate> onLandmarks() const override { return filter_->landmarks(); }
-    std::vector<LandmarkEstimate> onLandmarks(const std::vector<LandmarkId>& ids) const override {
-        return filter_->landmarks(ids);
-    }
-    std::int64_t onLandmarkCount() const override { return filter_->landmarkCount(); }
 
   private:
-    RobotMotionParameters motion_;
     ParticleParameters particles_{10, PoseProposal::refined, GaussianTransform::unscented};
     LandmarkFilterParameters landmarks_;
-    std::unique_ptr<ParticleFilter<LandmarkFilters>> filter_;
 };
 
 }  // namespace slamot

@@ -20,6 +20,8 @@ enum class Flaw {
     empty_set_throws,
     empty_set_moves,
     wrong_landmark_count,
+    particles_elsewhere,
+    surer_than_sure,
     unprintable_parameter,
     foreign_section,
     ignores_unknown_keys,
@@ -99,6 +101,16 @@ class Suspect : public Estimator {
         return report;
     }
     PoseGaussian onRobot() const override { return pose_; }
+    std::vector<LandmarkEstimate> onTentative() const override {
+        LandmarkEstimate candidate;
+        candidate.existence = flaw_ == Flaw::surer_than_sure ? 1.1 : 0.5;
+        return {candidate};
+    }
+    std::vector<ParticleEstimate> onParticles() const override {
+        ParticleEstimate all{1, pose_};
+        if (flaw_ == Flaw::particles_elsewhere) all.pose.mean.x += 1e-6;
+        return {all};
+    }
     std::int64_t onLandmarkCount() const override { return flaw_ == Flaw::wrong_landmark_count ? 1 : 0; }
 
   private:
@@ -141,6 +153,8 @@ TEST(LawsTest, EachFlawBreaksItsLaw) {
     EXPECT_NE(emptySetIsAccepted(suspect(Flaw::empty_set_throws)), "");
     EXPECT_NE(emptySetIsAccepted(suspect(Flaw::empty_set_moves)), "");
     EXPECT_NE(queriesAgree(suspect(Flaw::wrong_landmark_count)), "");
+    EXPECT_NE(queriesAgree(suspect(Flaw::particles_elsewhere)), "");
+    EXPECT_NE(queriesAgree(suspect(Flaw::surer_than_sure)), "");
     EXPECT_NE(parametersRoundTrip(suspect(Flaw::unprintable_parameter)), "");
     EXPECT_NE(parametersRoundTrip(suspect(Flaw::foreign_section)), "");
     EXPECT_NE(unknownKeyIsRefused(suspect(Flaw::ignores_unknown_keys)), "");

@@ -36,6 +36,21 @@ Verdict definite(const Estimator& estimator) {
     return verdict.empty() ? verdict : fmt::format("{} at {}", verdict, toText(estimator.time()));
 }
 
+/// The first two moments of all particles are the robot's.
+bool areMomentsOf(const PoseGaussian& robot, const std::vector<ParticleEstimate>& particles) {
+    Vector3 mean = Vector3::Zero();
+    Matrix3 P = Matrix3::Zero();
+    for (const auto& [weight, pose] : particles) {
+        Vector3 apart = pose.mean.vector() - robot.mean.vector();
+        apart.z() = wrapAngle(apart.z());
+        mean += weight * apart;
+        P += weight * (apart * apart.transpose() + pose.covariance);
+    }
+    // Poses are sums over particles of numbers as large as the way; variances are differences of their squares.
+    const double rounding = 1e-12 * (1 + robot.mean.position().squaredNorm());
+    return mean.cwiseAbs().maxCoeff() < rounding && (P - robot.covariance).cwiseAbs().maxCoeff() < rounding;
+}
+
 Verdict agree(const Estimator& estimator) {
     const Estimate estimate = estimator.estimate();
     const auto tracks = estimator.tracks();
@@ -64,6 +79,15 @@ Verdict agree(const Estimator& estimator) {
         if (some.size() != 1 || some[0].id != landmark.id || some[0].mean != landmark.mean)
             return at("landmarks(ids) and landmarks() differ");
     }
+    for (const LandmarkEstimate& candidate : estimator.tentative()) {
+        if (candidate.id.valid() && !landmark_ids.insert(candidate.id).second)
+            return at("a tentative landmark has the id of another");
+        if (!(candidate.existence >= 0 && candidate.existence <= 1))
+            return at("a tentative landmark's existence lies outside [0, 1]");
+    }
+    const auto particles = estimator.particles();
+    if (!particles.empty() && !areMomentsOf(estimator.robot(), particles))
+        return at("the particles' moments are not robot()");
     if (joint.matrix.size() == 0) return {};
     const auto size = static_cast<Eigen::Index>(3 + 6 * joint.tracks.size() + 2 * joint.landmarks.size());
     if (joint.matrix.rows() != size || joint.matrix.cols() != size)

@@ -48,7 +48,7 @@ struct Particle {
     }
     std::vector<LandmarkFilter> all() const {
         std::vector<LandmarkFilter> out;
-        map.landmarks().forEach([&](const LandmarkFilter& landmark) { out.push_back(landmark); });
+        map.features().forEach([&](const LandmarkFilter& landmark) { out.push_back(landmark); });
         return out;
     }
 
@@ -182,11 +182,11 @@ TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {
     LandmarkFilters copy = particle.map;
     copy.renew(2);
     particle.map.renew(3);
-    EXPECT_EQ(particle.map.landmarks().bytes()[0], 0u);
+    EXPECT_EQ(particle.map.features().bytes()[0], 0u);
     particle.take(scanAt(100, {seen({}, {5, 0}, ObjectKind::landmark, 0), nameless({5, 5})}));
     // The page of the landmark that was seen and the last one, where the new one is.
-    EXPECT_EQ(particle.map.landmarks().pages(), 5);
-    EXPECT_EQ(particle.map.landmarks().bytes()[0] * 5, particle.map.landmarks().bytes()[1] * 2);
+    EXPECT_EQ(particle.map.features().pages(), 5);
+    EXPECT_EQ(particle.map.features().bytes()[0] * 5, particle.map.features().bytes()[1] * 2);
 }
 
 }  // namespace

@@ -114,6 +114,37 @@ TEST_P(Forms, InnovationsHaveTheSpreadTheyClaim) {
     EXPECT_NEAR(nis / 190, 1, 3.5 * std::sqrt(2.0 / 190));
 }
 
+// Between scans a particle is spread itself, after one it is a point; both together make the robot's moments.
+TEST_P(Forms, ParticlesMakeUpTheRobot) {
+    Filter filter = filterOf(GetParam(), 50);
+    filter.start({Pose2{1, 2, 3.1}, Vector3(0.1, 0.2, 0.05).cwiseAbs2().asDiagonal()}, 5);
+    const auto expectMoments = [&] {
+        const PoseGaussian robot = filter.robot();
+        Vector3 mean = Vector3::Zero();
+        Matrix3 P = Matrix3::Zero();
+        const auto particles = filter.particles();
+        ASSERT_EQ(particles.size(), 50u);
+        for (const auto& [weight, pose] : particles) {
+            Vector3 apart = pose.mean.vector() - robot.mean.vector();
+            apart.z() = wrapAngle(apart.z());
+            mean += weight * apart;
+            P += weight * (apart * apart.transpose() + pose.covariance);
+        }
+        EXPECT_TRUE(test::near(mean, Vector3::Zero().eval(), 1e-13));
+        EXPECT_TRUE(test::near(P, robot.covariance, 1e-13));
+    };
+    const bool refined = GetParam().proposal == PoseProposal::refined;
+    EXPECT_EQ(filter.particles().at(7).pose.covariance.isZero(0), !refined);
+    drive([&](const OdometryIncrement& odometry, const DetectionSet& set) {
+        filter.predict(odometry);
+        EXPECT_EQ(filter.particles().at(7).pose.covariance.isZero(0), !refined);
+        expectMoments();
+        filter.update(set);
+        EXPECT_TRUE(filter.particles().at(7).pose.covariance.isZero(0));
+        expectMoments();
+    });
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, Forms,
     testing::Values(
@@ -122,6 +153,31 @@ INSTANTIATE_TEST_SUITE_P(
         Form{"residual", PoseProposal::refined, GaussianTransform::linear, Resampling::residual},
         Form{"unscented", PoseProposal::refined, GaussianTransform::unscented, Resampling::systematic}),
     [](const auto& each) { return each.param.name; });
+
+// A detection without identity is a candidate until others confirm it; a name vouches at once.
+TEST(ParticleFilterTest, TentativeUntilConfirmed) {
+    LandmarkFilterParameters landmarks;
+    ParticleParameters p;
+    p.count = 5;
+    Filter filter(p, motion(), LandmarkFilters::Settings(landmarks, GaussianTransform::linear),
+                  ScanMaker(landmarks.life, true), 1);
+    filter.start({}, 1);
+    const auto look = [&](double t) {
+        filter.update(test::detectionsAt(t, {test::seen({}, {2, 1}, ObjectKind::landmark, -1),
+                                             test::seen({}, {3, -1}, ObjectKind::landmark, 4)}));
+    };
+    look(0);
+    ASSERT_EQ(filter.tentative().size(), 1u);
+    const LandmarkEstimate candidate = filter.tentative()[0];
+    EXPECT_TRUE(test::near(candidate.mean, Vector2(2, 1), 1e-9));
+    EXPECT_GT(candidate.existence, 0);
+    EXPECT_LT(candidate.existence, landmarks.life.confirm_probability);
+    EXPECT_EQ(filter.landmarkCount(), 1);
+    for (int k = 1; k < 10 && !filter.tentative().empty(); ++k) look(0.1 * k);
+    EXPECT_TRUE(filter.tentative().empty());
+    ASSERT_EQ(filter.landmarks({candidate.id}).size(), 1u);
+    EXPECT_GE(filter.landmarks({candidate.id})[0].existence, landmarks.life.confirm_probability);
+}
 
 TEST(ParticleFilterTest, AnEmptyScanOfNamedLandmarksChangesNothing) {
     Filter filter = filterOf({"", PoseProposal::refined, GaussianTransform::linear, Resampling::systematic}, 10);

@@ -93,5 +93,24 @@ INSTANTIATE_TEST_SUITE_P(Both, Resamplings, testing::Values(Resampling::systemat
                              return each.param == Resampling::systematic ? "systematic" : "residual";
                          });
 
+TEST(ThinnedTest, KeepsByWeightAndWithoutChance) {
+    const auto expectKept = [](const std::vector<double>& weights, int most, const std::vector<KeptParticle>& expected) {
+        const std::vector<KeptParticle> kept = thinned(weights, most);
+        ASSERT_EQ(kept.size(), expected.size());
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            EXPECT_EQ(kept[k].index, expected[k].index);
+            EXPECT_EQ(kept[k].weight, expected[k].weight);
+        }
+    };
+    const std::vector<double> weights{0.5, 0.25, 0.125, 0.125};
+    expectKept(weights, 4, {{0, 0.5}, {1, 0.25}, {2, 0.125}, {3, 0.125}});
+    // The comb's teeth are at 1/4 and 3/4, at 1/2, and at odd eighths.
+    expectKept(weights, 2, {{0, 0.5}, {1, 0.5}});
+    expectKept(weights, 1, {{0, 1}});
+    expectKept(std::vector<double>(8, 0.125), 4, {{0, 0.25}, {2, 0.25}, {4, 0.25}, {6, 0.25}});
+    expectKept({0, 0.75, 0.25, 0, 0}, 4, {{1, 0.75}, {2, 0.25}});
+    expectKept({}, 3, {});
+}
+
 }  // namespace
 }  // namespace slamot

@@ -22,6 +22,7 @@ class FrontTestEstimator : public Estimator {
     int starts = 0, predictions = 0, updates = 0;
     PoseGaussian pose;
     std::vector<TrackEstimate> track_list;
+    std::vector<ParticleEstimate> particle_list;
     bool update_fails = false;
     int report_offset = 0;
 
@@ -60,6 +61,7 @@ class FrontTestEstimator : public Estimator {
     }
     PoseGaussian onRobot() const override { return pose; }
     std::vector<TrackEstimate> onTracks() const override { return track_list; }
+    std::vector<ParticleEstimate> onParticles() const override { return particle_list; }
     std::vector<LandmarkEstimate> onLandmarks() const override {
         std::vector<LandmarkEstimate> out(3);
         for (int i = 0; i < 3; ++i) out[i].id = {i};
@@ -248,6 +250,20 @@ TEST_F(EstimatorTest, NoticesAStateThatWentBad) {
     EXPECT_NO_THROW(estimator_.update(detectionsAt(10, {})));  // only what an update touched is looked at
     EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.update(detectionsAt(10, {good()})); }),
                 HasSubstr("track 42"));
+}
+
+TEST_F(EstimatorTest, ParticlesMustBeAWhole) {
+    EXPECT_TRUE(estimator_.particles().empty());
+    estimator_.particle_list = {{0.25, {}}, {0.75, {}}};
+    EXPECT_EQ(estimator_.particles().size(), 2u);
+    estimator_.particle_list[1].weight = 0.8;
+    EXPECT_EQ(messageOf<EstimatorError>([&] { estimator_.particles(); }),
+              "front_test: the weights of 2 particles at 10.0000000 sum to 1.05 instead of 1");
+    estimator_.particle_list = {{1.25, {}}, {-0.25, {}}};
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.particles(); }), HasSubstr("particle 1 at 10.0000000"));
+    estimator_.particle_list = {{1, {}}};
+    estimator_.particle_list[0].pose.mean.x = std::numeric_limits<double>::infinity();
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.particles(); }), HasSubstr("particle 0"));
 }
 
 TEST_F(EstimatorTest, NoticesAReportThatCannotBe) {

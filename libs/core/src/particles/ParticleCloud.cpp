@@ -85,4 +85,12 @@ PoseGaussian ParticleCloud::robot() const {
     return {Pose2::fromVector(centre + shift), P};
 }
 
+std::vector<ParticleEstimate> ParticleCloud::particles() const {
+    std::vector<ParticleEstimate> out;
+    out.reserve(poses_.size());
+    for (int i = 0; i < count(); ++i)
+        out.push_back({weights_[i], {Pose2::fromVector(pose(i).mean), pose(i).covariance()}});
+    return out;
+}
+
 }  // namespace slamot

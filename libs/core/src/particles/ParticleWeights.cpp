@@ -87,4 +87,20 @@ std::vector<int> ParticleWeights::resampled(Resampling method, RandomStream& ran
     return parents;
 }
 
+std::vector<KeptParticle> thinned(const std::vector<double>& weights, int most) {
+    std::vector<KeptParticle> kept;
+    if (weights.size() <= static_cast<std::size_t>(most)) {
+        for (std::size_t i = 0; i < weights.size(); ++i) kept.push_back({i, weights[i]});
+        return kept;
+    }
+    std::vector<int> picked;
+    appendSystematic(weights, 1.0, most, 0.5, picked);
+    for (const int i : picked) {
+        const auto index = static_cast<std::size_t>(i);
+        if (kept.empty() || kept.back().index != index) kept.push_back({index, 0});
+        kept.back().weight += 1.0 / most;
+    }
+    return kept;
+}
+
 }  // namespace slamot

@@ -13,6 +13,9 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Estimator, mrpt::rtti::CObject, slamot)
 namespace slamot {
 namespace {
 
+/// Sums of 100,000 weights are rounded by far less.
+constexpr double weight_tolerance = 1e-9;
+
 bool finite(const Pose2& pose) {
     return pose.vector().allFinite();
 }
@@ -152,6 +155,26 @@ void Estimator::checkTouched(const UpdateReport& report) const {
 Estimate Estimator::estimate() const {
     requireStarted("estimate");
     return {now_, onRobot(), onTracks(), onLandmarkCount(), health_};
+}
+
+std::vector<ParticleEstimate> Estimator::particles() const {
+    std::vector<ParticleEstimate> particles = onParticles();
+    checkParticles(particles);
+    return particles;
+}
+
+void Estimator::checkParticles(const std::vector<ParticleEstimate>& particles) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const auto& [weight, pose] = particles[i];
+        if (!finite(pose.mean) || !pose.covariance.allFinite() || !(weight >= 0 && std::isfinite(weight)))
+            throw EstimatorError(fmt::format("{}: particle {} at {} is not finite or its weight {} not a part of 1",
+                                             name(), i, toText(now_), weight));
+        sum += weight;
+    }
+    if (!particles.empty() && std::abs(sum - 1) > weight_tolerance)
+        throw EstimatorError(fmt::format("{}: the weights of {} particles at {} sum to {} instead of 1", name(),
+                                         particles.size(), toText(now_), sum));
 }
 
 std::string Estimator::missingInOdometry(const OdometryIncrement&) const {

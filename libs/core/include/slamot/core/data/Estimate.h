@@ -39,6 +39,12 @@ struct LandmarkEstimate {
     double moving = 0.0;
 };
 
+/// One of the samples that a particle filter stands for its belief with.
+struct ParticleEstimate {
+    double weight = 0;  ///< of all: they sum to 1
+    PoseGaussian pose;  ///< without covariance where the particle is a point
+};
+
 /// Counters since the start; nothing that was not used goes unmentioned.
 struct Health {
     std::int64_t predictions = 0, updates = 0;

@@ -101,7 +101,7 @@ class LandmarkFilters {
             if (isConfirmed(settings, landmark)) visit(landmark);
         });
     }
-    const SharedPages<LandmarkFilter>& landmarks() const { return landmarks_; }
+    const SharedPages<LandmarkFilter>& features() const { return landmarks_; }
 
   private:
     static PointSight expectedAt(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,

@@ -49,6 +49,7 @@ class ParticleCloud {
 
     /// First two moments over all particles; headings on the circle.
     PoseGaussian robot() const;
+    std::vector<ParticleEstimate> particles() const;
 
   private:
     ParticleParameters parameters_;

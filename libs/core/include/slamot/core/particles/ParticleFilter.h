@@ -14,9 +14,9 @@
 //   double update(settings, pose, drawn, scan, Work&, records&);
 //                                                  takes the scan in at a known pose (drawn: another one than pairs were
 //                                                  found at); log of its likelihood
-//   forEachConfirmed(settings, visit(feature)), find(id), isConfirmed(settings, feature);
+//   forEachConfirmed(settings, visit(feature)), find(id), isConfirmed(settings, feature), features().forEach(visit);
 //                                                  features with id, point, source, seen, stamps and
-//                                                  existenceProbability()
+//                                                  existenceProbability(); forEach visits all
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -104,6 +104,7 @@ class ParticleFilter {
     }
 
     PoseGaussian robot() const { return cloud_.robot(); }
+    std::vector<ParticleEstimate> particles() const { return cloud_.particles(); }
 
     /// Those of the heaviest particle, each merged over the particles that have it too.
     std::vector<LandmarkEstimate> landmarks() const {
@@ -117,6 +118,14 @@ class ParticleFilter {
             const auto* feature = best().find(id);
             if (feature && Map::isConfirmed(settings_, *feature)) out.push_back(merged(*feature));
         }
+        return out;
+    }
+    /// Likewise, what is not confirmed.
+    std::vector<LandmarkEstimate> tentative() const {
+        std::vector<LandmarkEstimate> out;
+        best().features().forEach([&](const auto& feature) {
+            if (!Map::isConfirmed(settings_, feature)) out.push_back(merged(feature));
+        });
         return out;
     }
     std::int64_t landmarkCount() const {

@@ -1,5 +1,6 @@
 #pragma once
 // Weights of particles, in logarithms, and who survives.
+#include <cstddef>
 #include <vector>
 
 #include "slamot/core/random/RandomStream.h"
@@ -36,5 +37,15 @@ class ParticleWeights {
 
     std::vector<double> log_weights_, weights_;
 };
+
+/// One of those that stand for all, in files and pictures.
+struct KeptParticle {
+    std::size_t index;
+    double weight;
+};
+
+/// Of particles whose weights sum to 1 at most `most` (1 or more), ascending: systematic resampling without chance, the
+/// same ones joined. Where there are no more than that, all of them with the weights they have.
+std::vector<KeptParticle> thinned(const std::vector<double>& weights, int most);
 
 }  // namespace slamot

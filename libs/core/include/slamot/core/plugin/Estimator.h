@@ -82,6 +82,12 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     std::vector<LandmarkEstimate> landmarks() const { return onLandmarks(); }
     /// Some landmarks only, in the order asked for; unknown ids are left out.
     std::vector<LandmarkEstimate> landmarks(const std::vector<LandmarkId>& ids) const { return onLandmarks(ids); }
+    /// What may turn out to be a landmark, with its existence; not among landmarks(). An id that is valid stays when it
+    /// does. None from estimators that decide at once or keep no list.
+    std::vector<LandmarkEstimate> tentative() const { return onTentative(); }
+    /// None from estimators that have none. Weights sum to 1 (EstimatorError where they do not), and the first two
+    /// moments of all particles together are robot().
+    std::vector<ParticleEstimate> particles() const;
     /// Most expensive; an empty matrix from estimators that keep none.
     JointCovariance jointCovariance() const { return onJointCovariance(); }
     /// Names behind TrackEstimate::mode_probabilities.
@@ -109,12 +115,15 @@ class Estimator : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
     virtual std::vector<LandmarkEstimate> onLandmarks() const { return {}; }
     virtual std::vector<LandmarkEstimate> onLandmarks(const std::vector<LandmarkId>& ids) const;
     virtual std::int64_t onLandmarkCount() const { return static_cast<std::int64_t>(onLandmarks().size()); }
+    virtual std::vector<LandmarkEstimate> onTentative() const { return {}; }
+    virtual std::vector<ParticleEstimate> onParticles() const { return {}; }
     virtual JointCovariance onJointCovariance() const { return {}; }
 
    private:
     void requireStarted(const char* what) const;
     void checkReport(const UpdateReport& report, std::size_t detections) const;
     void checkRobot(const char* after) const;
+    void checkParticles(const std::vector<ParticleEstimate>& particles) const;
     /// Tracks named in the report, and in debug and sanitizer builds the whole joint covariance.
     void checkTouched(const UpdateReport& report) const;
 
