@@ -14,8 +14,8 @@ conformance::Options sampled() {
 }
 
 /// Landmark 0 straight ahead at `range`, for a sensor of 10 m all round, with deviations 0.1 m and 0.02 rad.
-DetectionSet ahead(double t, double range) {
-    DetectionSet set = test::detectionsAt(t, {test::seen({}, {range, 0}, ObjectKind::landmark, 0)});
+DetectionSet ahead(double range) {
+    DetectionSet set = test::detectionsAt(0, {test::seen({}, {range, 0}, ObjectKind::landmark, 0)});
     std::get<RangeBearingSet>(set.measurements).sensors.front().max_range = 10;
     return set;
 }
@@ -33,7 +33,7 @@ TEST(GmphdUfastslamTest, TwoScansByHand) {
 
     // First sight at 2 m, in Cartesian coordinates; the bearing's points lie 2 (1 - cos(0.02 s)) nearer. It
     // weighs 6 / 8. The log's identity is not used.
-    EXPECT_EQ(estimator->update(ahead(0, 2)).innovations.at(0).outcome, Outcome::tentative);
+    EXPECT_EQ(estimator->update(ahead(2)).innovations.at(0).outcome, Outcome::tentative);
     const double nearer = 2 * (1 - std::cos(0.02 * s)), shift = -2 * w * nearer;
     const double x = 2 + shift;
     const double along =
@@ -59,7 +59,7 @@ TEST(GmphdUfastslamTest, TwoScansByHand) {
     // The range is linear along the x axis: its covariance with x is the variance of x.
     const double x_detected = x + along / S_r * nu, along_detected = along - along * along / S_r;
 
-    const UpdateReport report = estimator->update(ahead(1, 2.1));
+    const UpdateReport report = estimator->update(ahead(2.1));
     EXPECT_EQ(report.innovations.at(0).outcome, Outcome::updated);
     landmark = estimator->landmarks().at(0);
     EXPECT_EQ(landmark.seen, 2);
@@ -71,7 +71,7 @@ TEST(GmphdUfastslamTest, TwoScansByHand) {
                 part * along_detected + (1 - part) * along + part * (1 - part) * d * d, 1e-12);
 
     // Not detected, it counts for no landmark any more: 0.2 of the weight is left.
-    DetectionSet nothing = ahead(2, 2);
+    DetectionSet nothing = ahead(2);
     std::get<RangeBearingSet>(nothing.measurements).detections.clear();
     estimator->update(nothing);
     EXPECT_LT(0.2 * weight, 0.5);
