@@ -65,13 +65,13 @@ class PhdMap {
         int component = -1;     ///< of that term; -1: no component explains any of it
         bool numbered = false;  ///< its number is given away
     };
-    /// Room for one update, used again for the next particle.
+    /// Room for one update with one scan, used again for the next particle.
     struct Work {
         const ParticleScan* of = nullptr;  ///< that `scan` was made of
         PhdScan scan;
         std::vector<Near> near;  ///< all within `radius` of `centre`
-        Vector2 centre;
-        double radius;
+        Vector2 centre = Vector2::Zero();
+        double radius = 0;
         std::vector<Pair> pairs;    ///< by sight
         std::vector<Share> shares;  ///< by sight
         std::vector<Seen> seen;
