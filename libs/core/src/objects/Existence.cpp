@@ -17,10 +17,17 @@ Existence Existence::certain() {
     return {};
 }
 
-Existence::Existence(const LifeParameters& p) : hidden_(0), certain_(false) {
+Existence Existence::atFirstSight(double probability) {
+    Existence existence;
+    existence.certain_ = false;
+    existence.visible_ = existence.initial_ = probability;
+    return existence;
+}
+
+Existence::Existence(const LifeParameters& p) {
     const double all = p.new_per_scan + p.clutter_per_scan;
     // Where neither is expected, what was detected can only be an object.
-    visible_ = initial_ = all > 0 ? p.new_per_scan / all : 1.0;
+    *this = atFirstSight(all > 0 ? p.new_per_scan / all : 1.0);
 }
 
 void Existence::pass(double dt, const LifeParameters& p) {
@@ -59,12 +66,6 @@ void Existence::detectedPerhaps(double p, double detection_probability) {
     missed(detection_probability);
     visible_ = p + (1 - p) * visible_;
     hidden_ *= 1 - p;
-}
-
-void Existence::newWithProbability(double p) {
-    if (certain_) return;
-    visible_ *= p;
-    hidden_ *= p;
 }
 
 bool Existence::confirmed(const LifeParameters& p) const {

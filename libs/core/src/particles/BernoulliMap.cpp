@@ -6,6 +6,7 @@
 #include "StandingSensor.h"
 #include "slamot/core/association/AssociationMarginals.h"
 #include "slamot/core/association/ChiSquare.h"
+#include "slamot/core/association/DetectionModel.h"
 
 namespace slamot {
 namespace {
@@ -19,10 +20,14 @@ bool operator==(Place a, Place b) {
 /// Pairs less likely than this are left out of the mixture: they would move nothing.
 constexpr double least_pair = 1e-8;
 
+/// Below this, what would be new is not kept.
+constexpr double least_existence = 1e-6;
+constexpr double least_clutter = 1e-6;
+
 /// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
-double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, const ScanSight& sight) {
+double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, double unexplained) {
     const double seen = near.detection * near.existence.visibility();
-    return std::log(seen / (1 - seen)) - sight.log_unexplained + innovation.logLikelihood();
+    return std::log(seen / (unexplained * (1 - seen))) + innovation.logLikelihood();
 }
 
 }  // namespace
@@ -54,6 +59,25 @@ void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, co
     });
 }
 
+void BernoulliMap::expectUnexplained(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                                     Work& work) const {
+    const BernoulliMapParameters& p = settings.parameters;
+    const ScanView& view = scan.views[static_cast<std::size_t>(work.view)];
+    const StandingSensor sensor(pose, view);
+    const double clutter = clutterDensity(std::max(p.life.clutter_per_scan, least_clutter), view.sensor);
+    const double appearing = clutterDensity(p.life.new_per_scan, view.sensor);
+    work.fresh.resize(scan.sights.size());
+    work.unexplained.resize(scan.sights.size());
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.view != work.view || sight.named()) continue;
+        // An element of range and bearing at range r covers r times as much ground.
+        work.fresh[s] = p.life.detection_probability * p.density * undetected_.part(sensor.pointOf(sight.z)) *
+                            sight.z.x() + appearing;
+        work.unexplained[s] = work.fresh[s] + clutter;
+    }
+}
+
 void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& scan, Work& work) {
     work.candidates.clear();
     work.log_ratios.clear();
@@ -69,7 +93,7 @@ void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& 
             if (innovation.nis > settings.gate || !(near.existence.visibility() > 0)) continue;
             work.candidates.push_back(
                 {static_cast<int>(s), static_cast<int>(n), innovation.nis, innovation.logLikelihood()});
-            work.log_ratios.push_back(logRatio(near, innovation, sight));
+            work.log_ratios.push_back(logRatio(near, innovation, work.unexplained[s]));
         }
     }
 }
@@ -84,7 +108,7 @@ void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, cons
         const PointInnovation innovation(near.sight, sight.z, sight.R);
         pair.nis = innovation.nis;
         pair.log_likelihood = innovation.logLikelihood();
-        work.log_ratios[c] = logRatio(near, innovation, sight);
+        work.log_ratios[c] = logRatio(near, innovation, work.unexplained[static_cast<std::size_t>(pair.detection)]);
     }
 }
 
@@ -108,6 +132,7 @@ void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, cons
     for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
         if (!scan.views[static_cast<std::size_t>(view)].nameless) continue;
         findNear(settings, pose, scan, view, work);
+        expectUnexplained(settings, pose, scan, work);
         findCandidates(settings, scan, work);
         const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
                                          work.candidates);
@@ -152,7 +177,7 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
             const ScanSight& sight = scan.sights[s];
             if (sight.view != view) continue;
             const bool starts =
-                sight.named() ? !sight.known_as.valid() : none[s] >= settings.parameters.life.remove_probability;
+                sight.named() ? !sight.known_as.valid() : none[s] > least_existence;
             if (!starts) continue;
             start(settings, pose, scan, sight, sight.named() ? 1 : none[s]);
             if (records[s].landmark.valid()) continue;
@@ -188,8 +213,10 @@ double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, 
 double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
                                     Work& work, std::vector<SightRecord>& records, std::vector<double>& none) {
     // The only view was looked through for the pairs. Another may see what the one before has started.
+    const PoseBelief at{pose, Matrix3::Zero()};
     if (scan.views.size() > 1) {
-        findNear(settings, {pose, Matrix3::Zero()}, scan, view, work);
+        findNear(settings, at, scan, view, work);
+        expectUnexplained(settings, at, scan, work);
         findCandidates(settings, scan, work);
     }
     lookAgain(settings, pose, scan, work);
@@ -204,9 +231,14 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.view != view || sight.named()) continue;
-        log_likelihood += sight.log_unexplained;
-        none[s] = marginals.none[s];
+        log_likelihood += std::log(work.unexplained[s]);
+        none[s] = marginals.none[s] * work.fresh[s] / work.unexplained[s];
     }
+    const StandingSensor sensor(at, scan.views[static_cast<std::size_t>(view)]);
+    const double miss = 1 - settings.parameters.life.detection_probability;
+    log_likelihood -= settings.parameters.density *
+                      undetected_.look(sensor.position(), scan.views[static_cast<std::size_t>(view)].sensor.max_range,
+                                       [&](const Vector2& centre) { return sensor.covers(centre) ? miss : 1; });
     work.mixtures.assign(work.near.size(), {});
     for (int c = 0; c < problem.candidates(); ++c) {
         const double p = marginals.pair[static_cast<std::size_t>(c)];
@@ -251,15 +283,13 @@ void BernoulliMap::take(const Settings& settings, Stamp now, double missed, std:
 // ---------------------------------------------------------------------------------------------------
 
 void BernoulliMap::start(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
-                         const ScanSight& sight, double probability) {
+                         const ScanSight& sight, double existence) {
     BernoulliFeature feature;
     feature.id = sight.birth;
     feature.point = firstSight(placeOf(pose, scan.sensorOf(sight)), sight.z, sight.R, settings.transform);
     feature.source = sight.source;
     if (!sight.named()) {
-        feature.existence = Existence(settings.parameters.life);
-        feature.existence.newWithProbability(probability);
-        if (!(feature.existence.probability() > 0)) return;
+        feature.existence = Existence::atFirstSight(existence);
     }
     feature.first_seen = feature.last_seen = feature.looked = scan.now;
     features_.append(feature);
@@ -293,6 +323,8 @@ std::vector<ParameterTable> describe(BernoulliMapParameters& p, const std::strin
         .integer("state_budget", p.state_budget, Interval::between(1, 1000000),
                  "States of the exact sums over pairings at most; beyond, belief propagation approximates them.");
     ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
+    landmarks.real("density", p.density, "1/m^2", Interval::nonNegative(),
+                   "Landmarks to be expected where no sensor has looked yet.");
     describe(p.life, "landmarks", landmarks);
     landmarks.real("max_unseen", p.max_unseen, "s", Interval::positiveOrInfinite(),
                    "A landmark that is not confirmed and not seen for longer is let go.");

@@ -25,6 +25,7 @@ StandingSensor::StandingSensor(const PoseBelief& pose, const ScanView& view) : v
     position_factor_ = pose.factor.topRows<2>() + quarterTurn() * lever * heading_factor_;
     half_view_ = 0.5 * view.sensor.field_of_view + widest * bearing_rim;
     cos_half_view_ = half_view_ < pi ? std::cos(half_view_) : -1;
+    cos_half_limit_ = view.sensor.field_of_view < 2 * pi ? std::cos(0.5 * view.sensor.field_of_view) : -1;
 }
 
 double StandingSensor::reach() const {
@@ -54,6 +55,18 @@ PointSight StandingSensor::sightOf(const GaussianPoint& point) const {
     sight.cross = point.covariance * H.transpose();
     sight.covariance = sight.A * sight.A.transpose() + H * sight.cross;
     return sight;
+}
+
+bool StandingSensor::covers(const Vector2& point) const {
+    const Vector2 rel = point - position_;
+    const double squared = rel.squaredNorm(), nearest = view_.sensor.min_range, farthest = view_.sensor.max_range;
+    if (squared > farthest * farthest || squared < nearest * nearest) return false;
+    return cos_half_limit_ <= -1 || axis_.dot(rel) >= cos_half_limit_ * std::sqrt(squared);
+}
+
+Vector2 StandingSensor::pointOf(const Vector2& z) const {
+    const double c = std::cos(z.y()), s = std::sin(z.y());
+    return position_ + z.x() * Vector2(c * axis_.x() - s * axis_.y(), c * axis_.y() + s * axis_.x());
 }
 
 double StandingSensor::inView(const PointSight& sight) const {

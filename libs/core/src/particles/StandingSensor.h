@@ -16,6 +16,9 @@ class StandingSensor {
     bool mayShow(const GaussianPoint& point) const;
     /// By Jacobians: as PointSight's `sightOf`, at the price of a root and an arc tangent.
     PointSight sightOf(const GaussianPoint& point) const;
+    /// Whether a point lies within the sensor's limits.
+    bool covers(const Vector2& point) const;
+    Vector2 pointOf(const Vector2& z) const;
     /// Probability that it lies within the sensor's limits, which are soft: poses of particles are not that exact. Not
     /// below 2 %.
     double inView(const PointSight& sight) const;
@@ -25,6 +28,7 @@ class StandingSensor {
     Vector2 position_, axis_;  ///< in the world; axis: where bearings are 0
     double half_view_;         ///< [rad], half the field of view and what may be beyond
     double cos_half_view_;     ///< -1 all round
+    double cos_half_limit_;    ///< of the field of view itself; -1 all round
     Eigen::Matrix<double, 2, 3> position_factor_;  ///< d position / d xi of the pose
     Eigen::RowVector3d heading_factor_;            ///< d heading / d xi
 };

@@ -27,6 +27,8 @@ class Existence {
     static Existence certain();
     /// At first sight: new / (new + clutter).
     explicit Existence(const LifeParameters& parameters);
+    /// At first sight, with that probability, which lies in [0, 1].
+    static Existence atFirstSight(double probability);
 
     /// Time in view passes: occlusions begin and end.
     void pass(double dt, const LifeParameters& parameters);
@@ -41,8 +43,6 @@ class Existence {
     void missed(double detection_probability);
     /// Detected with probability `p`, else missed as above: the mixture of both.
     void detectedPerhaps(double p, double detection_probability);
-    /// What it was started with came from something known with probability 1 - p: then it is not there.
-    void newWithProbability(double p);
 
     /// Visible or hidden.
     double probability() const { return visible_ + hidden_; }

@@ -14,6 +14,7 @@
 #include "slamot/core/particles/ParticleScan.h"
 #include "slamot/core/particles/PointSight.h"
 #include "slamot/core/particles/SharedPages.h"
+#include "slamot/core/particles/UndetectedFeatures.h"
 
 namespace slamot {
 
@@ -23,6 +24,7 @@ struct BernoulliMapParameters {
     /// A feature refines the pose where its detection comes from it with this probability at least.
     double pose_probability = 0.9;
     int state_budget = 500;  ///< of exact sums over the pairings of a cluster
+    double density = 0.005;  ///< [1/m^2] of features where no sensor has looked yet
     LifeParameters life;
     double max_unseen = 5;  ///< [s]; a feature that is not confirmed and not seen for longer is let go
 };
@@ -74,12 +76,17 @@ class BernoulliMap {
         std::vector<Near> near;
         std::vector<Candidate> candidates;
         std::vector<double> log_ratios;  ///< by candidate
+        /// By sight: density [1/(m rad)] of first detections of features, and of those and false ones.
+        std::vector<double> fresh, unexplained;
         std::vector<Pair> pairs;
         std::vector<FeatureMixture> mixtures;  ///< by near feature
         std::vector<Place> lost;
     };
 
-    void renew(std::uint64_t owner) { features_.renew(owner); }
+    void renew(std::uint64_t owner) {
+        features_.renew(owner);
+        undetected_.renew(owner);
+    }
 
     /// Probabilities of pairs at the predicted pose; fills `records` by sight with the likeliest.
     void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
@@ -107,6 +114,8 @@ class BernoulliMap {
   private:
     void findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int view,
                   Work& work) const;
+    void expectUnexplained(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                           Work& work) const;
     static void findCandidates(const Settings& settings, const ParticleScan& scan, Work& work);
     static void lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work);
     double updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
@@ -115,10 +124,11 @@ class BernoulliMap {
                           std::vector<SightRecord>& records, std::vector<double>& none);
     void take(const Settings& settings, Stamp now, double missed, std::size_t near, Work& work);
     void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
-               double probability);
+               double existence);
     void letGo(const Settings& settings, Stamp now, Work& work);
 
     SharedPages<BernoulliFeature> features_;
+    UndetectedFeatures undetected_;
     int swept_ = 0;  ///< page to be looked through next for what was never confirmed
 };
 
