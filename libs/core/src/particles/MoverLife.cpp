@@ -183,20 +183,19 @@ void MoverLife::becomeLandmark(TargetParticles& particles, ObjectCatalogue& trac
                                const MoverBatch& batch, int d) {
     const TrackRecord was = track;
     removeTrack(particles, tracks, was);
-    LandmarkId id;
-    addLandmark(particles, sightAlone(batch, d), was.life->existence, was.life->moving, 1, was.first_seen, batch.now,
-                id);
+    LandmarkFilter landmark;
+    landmark.existence = was.life->existence;
+    landmark.first_seen = was.first_seen;
+    addLandmark(particles, {{batch.now, detectionOf(batch, d), sensorOf(batch, d).pose}}, landmark, was.life->moving,
+                batch.now);
 }
 
-void MoverLife::addLandmark(TargetParticles& particles, const RelativeGaussian& point, const Existence& existence,
-                            double moving, int seen, Stamp first_seen, Stamp now, LandmarkId& id) {
-    LandmarkFilter landmark;
-    landmark.existence = existence;
-    landmark.seen = seen;
-    landmark.first_seen = first_seen;
+LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
+                                  LandmarkFilter landmark, double moving, Stamp now) {
     landmark.last_seen = landmark.looked = now;
-    id = particles.addLandmark(point, landmark);
-    mixed_[id] = {--last_watch_, moving, now};  // below those of movers, which count up
+    const LandmarkId id = particles.addLandmark(sights, pair_gate_, landmark);
+    mixed_[id] = {--last_watch_, moving, now};  // below the numbers of movers, which count up
+    return id;
 }
 
 std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
@@ -261,8 +260,11 @@ void MoverLife::admit(TargetParticles& particles, ObjectCatalogue& tracks, const
     innovation.outcome = Outcome::initiated;
     if (!confirmed.moving) {
         innovation.kind = ObjectKind::landmark;
-        addLandmark(particles, object.track.asLandmark(), object.existence, moving, object.seen, object.first_seen,
-                    now, innovation.landmark);
+        LandmarkFilter landmark;
+        landmark.existence = object.existence;
+        landmark.seen = object.seen;
+        landmark.first_seen = object.first_seen;
+        innovation.landmark = addLandmark(particles, object.sights, landmark, moving, now);
         return;
     }
     RelativeGaussian mover = object.track.asMover();

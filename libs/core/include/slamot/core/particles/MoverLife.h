@@ -66,8 +66,9 @@ class MoverLife {
                         const MoverBatch& batch, int detection);
     void admit(TargetParticles& particles, ObjectCatalogue& tracks, const ConfirmedObject& confirmed, Stamp now,
                Innovation& innovation);
-    void addLandmark(TargetParticles& particles, const RelativeGaussian& point, const Existence& existence,
-                     double moving, int seen, Stamp first_seen, Stamp now, LandmarkId& id);
+    /// A landmark of unknown kind, with what `landmark` says of its life; P(moving) is watched from now on.
+    LandmarkId addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
+                           LandmarkFilter landmark, double moving, Stamp now);
     void removeTrack(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track);
 
     ObjectLifeParameters parameters_;
