@@ -83,6 +83,18 @@ TEST(LandmarkFiltersTest, TheSameNewNameTwiceInABatchStartsOneLandmark) {
     EXPECT_EQ(particle.all().size(), 1u);
 }
 
+TEST(LandmarkFiltersTest, ANameTwiceInABatchIsTwoSightsOneAfterTheOther) {
+    Particle particle;
+    const auto at = [](double x) { return seen({}, {x, 0}, ObjectKind::landmark, 7); };
+    particle.take(scanAt(0, {at(5)}));
+    particle.take(scanAt(1, {at(5), at(5.3)}));
+    // Of three equal sights in all: the mean, and a third of one's covariance.
+    const LandmarkFilter& landmark = particle.all().at(0);
+    EXPECT_TRUE(test::near(landmark.point.mean, Vector2(5.1, 0), 1e-14));
+    EXPECT_TRUE(test::near(landmark.point.covariance, Matrix2(0.01 / 3 * Matrix2::Identity()), 1e-4));
+    EXPECT_EQ(landmark.seen, 3);
+}
+
 // The weights of a nameless landmark, by hand: c = 2.5 / (20 * 2 pi), r = 0.5 / 2.5 at first sight.
 TEST(LandmarkFiltersTest, NamelessLandmarksWeighByExistence) {
     const double c = 2.5 / (20 * 2 * pi), p_d = 0.8;

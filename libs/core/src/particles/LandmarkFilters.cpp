@@ -185,8 +185,11 @@ double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bo
         if (!sight.named()) log_likelihood += sight.log_unexplained;
         if (work.near_of[s] < 0) continue;
         const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
-        if (drawn) work.expected[s] = sightOf(near.point, work.placeOf(sight), settings.transform);
-        records[s].outcome = isConfirmed(settings, landmarks_.at(near.place)) ? Outcome::updated : Outcome::tentative;
+        const LandmarkFilter& landmark = landmarks_.at(near.place);
+        // Named and seen twice in this batch: the second meets what the first has made of it.
+        if (drawn || landmark.last_seen == scan.now)
+            work.expected[s] = sightOf(landmark.point, work.placeOf(sight), settings.transform);
+        records[s].outcome = isConfirmed(settings, landmark) ? Outcome::updated : Outcome::tentative;
         log_likelihood += detected(settings, work.expected[s], sight, scan.now, near.place);
     }
     if (scan.nameless) log_likelihood += missed(settings, scan, work);

@@ -1,8 +1,15 @@
 #include "slamot/core/particles/LandmarksAndTargets.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slamot {
+namespace {
+
+/// Scans: objects that take longer to confirm lose their first sights.
+constexpr std::size_t most_poses = 20;
+
+}  // namespace
 
 void LandmarksAndTargets::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                                  Work& work, std::vector<SightRecord>& records) const {
@@ -28,6 +35,37 @@ void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief&
             work.rivals.push_back(pair);
         }
     }
+}
+
+void LandmarksAndTargets::remember(const Vector3& pose, const ParticleScan& scan) {
+    if (std::none_of(scan.sights.begin(), scan.sights.end(), [](const ScanSight& s) { return s.may_be_mover; }))
+        return;
+    if (path_.size() == most_poses) path_.erase(path_.begin());
+    path_.push_back({scan.now, pose});
+}
+
+GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings, const std::vector<TentativeSight>& sights,
+                                           double gate, double& log_likelihood) const {
+    const GaussianTransform transform = settings.landmarks.transform;
+    GaussianPoint point;
+    bool is_first = true;
+    for (const TentativeSight& sight : sights) {
+        const auto from =
+            std::find_if(path_.begin(), path_.end(), [&](const PastPose& past) { return past.at == sight.at; });
+        if (from == path_.end()) continue;
+        const SensorPlace place = placeOf(from->pose, sight.sensor);
+        if (is_first) {
+            point = firstSight(place, sight.detection.z(), sight.detection.covariance, transform);
+            is_first = false;
+            continue;
+        }
+        const PointSight expected = sightOf(point, place, transform);
+        const PointInnovation innovation(expected, sight.detection.z(), sight.detection.covariance);
+        if (innovation.nis > gate) continue;
+        slamot::update(point, expected, innovation);
+        log_likelihood += innovation.logLikelihood();
+    }
+    return point;
 }
 
 }  // namespace slamot

@@ -17,10 +17,6 @@ const RangeBearingSensor& sensorOf(const MoverBatch& batch, int d) {
     return batch.seen.sensors[static_cast<std::size_t>(detectionOf(batch, d).sensor)];
 }
 
-RelativeGaussian sightAlone(const MoverBatch& batch, int d) {
-    return firstSight(detectionOf(batch, d), sensorOf(batch, d).pose, Consistency::invariant);
-}
-
 TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double velocity_std, double acceleration_std,
                                         double gate_probability) {
     return {p.landmarks,      p.movers,     p.change,        p.decide_probability,
@@ -28,11 +24,12 @@ TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double ve
 }
 
 /// Whether a sensor that reports `kind` could not but show it.
-bool surelySeenByAny(const MoverBatch& batch, ObjectKind kind, const MergedTargets& view, BlockId mover) {
+bool surelySeenByAny(const MoverBatch& batch, ObjectKind kind, const MergedTargets& view, BlockId mover,
+                     Consistency consistency) {
     const auto& sensors = batch.seen.sensors;
     return std::any_of(sensors.begin(), sensors.end(), [&](const RangeBearingSensor& sensor) {
         return reports(sensor, kind) &&
-               surelyInView(sensor, expectedSight(view, mover, sensor.pose, Consistency::invariant).detection);
+               surelyInView(sensor, expectedSight(view, mover, sensor.pose, consistency).detection);
     });
 }
 
@@ -50,9 +47,10 @@ bool surelySeenByAny(const MoverBatch& batch, const TargetParticles& particles, 
 
 }  // namespace
 
-MoverLife::MoverLife(const ObjectLifeParameters& parameters, double velocity_std, double acceleration_std,
-                     double gate_probability)
+MoverLife::MoverLife(const ObjectLifeParameters& parameters, Consistency consistency, double velocity_std,
+                     double acceleration_std, double gate_probability)
     : parameters_(parameters),
+      consistency_(consistency),
       velocity_std_(velocity_std),
       acceleration_std_(acceleration_std),
       pair_gate_(chiSquareQuantile(gate_probability, 2)),
@@ -89,7 +87,7 @@ void MoverLife::follow(TargetParticles& particles, ObjectCatalogue& tracks, cons
 
     for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
     for (const ConfirmedObject& confirmed :
-         tentative_.update(batch.seen, batch.now, unexplained, batch.may_be_new, Consistency::invariant))
+         tentative_.update(batch.seen, batch.now, unexplained, batch.may_be_new, consistency_))
         admit(particles, tracks, confirmed, batch.now, innovations[static_cast<std::size_t>(confirmed.detection)]);
 }
 
@@ -114,7 +112,7 @@ void MoverLife::judge(const TargetParticles& particles, ObjectCatalogue& tracks,
         const auto sight = batch.sights.find(track.block);
         if (sight != batch.sights.end())
             existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
-        else if (surelySeenByAny(batch, track.life->seen_as, view, track.block))
+        else if (surelySeenByAny(batch, track.life->seen_as, view, track.block, consistency_))
             existence.missed(parameters_.movers.detection_probability);
     }
 }
@@ -140,7 +138,7 @@ void MoverLife::changeKinds(TargetParticles& particles, ObjectCatalogue& tracks,
         MixedLandmark& landmark = found->second;
         landmark.last_seen = batch.now;
         landmark.moving = kinds_.look(landmark.watch, landmark.moving, detectionOf(batch, verdict.detection),
-                                      sensorOf(batch, verdict.detection).pose, Consistency::invariant);
+                                      sensorOf(batch, verdict.detection).pose, consistency_);
         if (landmark.moving >= parameters_.decide_probability)
             becomeMover(particles, tracks, verdict.landmark, batch, verdict.detection);
     }
@@ -148,13 +146,17 @@ void MoverLife::changeKinds(TargetParticles& particles, ObjectCatalogue& tracks,
         TrackRecord* track = tracks.trackOf(block);
         if (!track->life || track->life->seen_as != ObjectKind::unknown) continue;
         track->life->moving = kinds_.look(block, track->life->moving, detectionOf(batch, d), sensorOf(batch, d).pose,
-                                          Consistency::invariant);
+                                          consistency_);
         if (track->life->moving <= 1 - parameters_.decide_probability)
             becomeLandmark(particles, tracks, *track, batch, d);
     }
 }
 
 // An object's position begins anew with the detection that shows its kind: what came before was of another.
+
+RelativeGaussian MoverLife::sightAlone(const MoverBatch& batch, int d) const {
+    return firstSight(detectionOf(batch, d), sensorOf(batch, d).pose, consistency_);
+}
 
 TrackId MoverLife::becomeMover(TargetParticles& particles, ObjectCatalogue& tracks, LandmarkId landmark,
                                const MoverBatch& batch, int d) {
@@ -181,20 +183,19 @@ void MoverLife::becomeLandmark(TargetParticles& particles, ObjectCatalogue& trac
                                const MoverBatch& batch, int d) {
     const TrackRecord was = track;
     removeTrack(particles, tracks, was);
-    LandmarkId id;
-    addLandmark(particles, sightAlone(batch, d), was.life->existence, was.life->moving, 1, was.first_seen, batch.now,
-                id);
+    LandmarkFilter landmark;
+    landmark.existence = was.life->existence;
+    landmark.first_seen = was.first_seen;
+    addLandmark(particles, {{batch.now, detectionOf(batch, d), sensorOf(batch, d).pose}}, landmark, was.life->moving,
+                batch.now);
 }
 
-void MoverLife::addLandmark(TargetParticles& particles, const RelativeGaussian& point, const Existence& existence,
-                            double moving, int seen, Stamp first_seen, Stamp now, LandmarkId& id) {
-    LandmarkFilter landmark;
-    landmark.existence = existence;
-    landmark.seen = seen;
-    landmark.first_seen = first_seen;
+LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
+                                  LandmarkFilter landmark, double moving, Stamp now) {
     landmark.last_seen = landmark.looked = now;
-    id = particles.addLandmark(point, landmark);
-    mixed_[id] = {--last_watch_, moving, now};  // below those of movers, which count up
+    const LandmarkId id = particles.addLandmark(sights, pair_gate_, landmark);
+    mixed_[id] = {--last_watch_, moving, now};  // below the numbers of movers, which count up
+    return id;
 }
 
 std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
@@ -259,8 +260,11 @@ void MoverLife::admit(TargetParticles& particles, ObjectCatalogue& tracks, const
     innovation.outcome = Outcome::initiated;
     if (!confirmed.moving) {
         innovation.kind = ObjectKind::landmark;
-        addLandmark(particles, object.track.asLandmark(), object.existence, moving, object.seen, object.first_seen,
-                    now, innovation.landmark);
+        LandmarkFilter landmark;
+        landmark.existence = object.existence;
+        landmark.seen = object.seen;
+        landmark.first_seen = object.first_seen;
+        innovation.landmark = addLandmark(particles, object.sights, landmark, moving, now);
         return;
     }
     RelativeGaussian mover = object.track.asMover();

@@ -26,6 +26,10 @@ TargetSettings targetSettings(const TargetParticleParameters& p) {
     return out;
 }
 
+Consistency consistencyOf(const TargetParticleParameters& p) {
+    return p.particles.transform == GaussianTransform::linear ? Consistency::classic : Consistency::invariant;
+}
+
 ObjectLifeParameters lifeOf(const TargetParticleParameters& p) {
     ObjectLifeParameters out = p.life;
     out.landmarks = p.landmarks.life;

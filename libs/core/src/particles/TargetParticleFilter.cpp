@@ -15,6 +15,7 @@ TargetParticleFilter::TargetParticleFilter(const TargetParticleParameters& p, co
                                            int threads)
     : parameters_(p),
       motion_(motion),
+      consistency_(consistencyOf(p)),
       models_(modelsOf(p.imm)),
       particles_(p.particles, motion,
                  {LandmarkFilters::Settings(p.landmarks, p.particles.transform), targetSettings(p),
@@ -22,8 +23,8 @@ TargetParticleFilter::TargetParticleFilter(const TargetParticleParameters& p, co
                  ScanMaker(p.landmarks.life, p.landmarks.association != ParticleAssociation::known,
                            p.association != MoverAssociation::known),
                  p.weigh_targets, threads),
-      associator_(associationOf(p), Consistency::invariant),
-      life_(lifeOf(p), p.velocity_std, p.acceleration_std, p.landmarks.gate_probability) {}
+      associator_(associationOf(p), consistency_),
+      life_(lifeOf(p), consistency_, p.velocity_std, p.acceleration_std, p.landmarks.gate_probability) {}
 
 void TargetParticleFilter::start(const PoseGaussian& pose, std::uint64_t seed) {
     particles_.start(pose, seed);
@@ -95,7 +96,7 @@ void TargetParticleFilter::updateByMovers(MoverBatch& batch, std::vector<Innovat
         // Judged at the moments over all particles, so that all of them treat it alike.
         const bool weighed = found.soft && track.life;
         const OutlierGate gate = weighed ? OutlierGate{OutlierTreatment::accept} : parameters_.outliers;
-        const Linearisation expected = linearise(view, block, seen, sensor.pose, Consistency::invariant);
+        const Linearisation expected = linearise(view, block, seen, sensor.pose, consistency_);
         const Matrix2 more_noise = gate.judge(Eigen::VectorXd::Ones(1), {expected}, seen, innovation);
         if (innovation.outcome == Outcome::rejected) continue;
         tracks_.markSeen(track.id, batch.now);
@@ -168,7 +169,7 @@ void TargetParticleFilter::startNamed(const MoverBatch& batch, std::vector<Innov
         if (tracks_.trackBySource(detection.source)) continue;
         const Pose2& sensor = batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
         const BlockId block =
-            particles_.addTarget(moverAt(firstSight(detection, sensor, Consistency::invariant),
+            particles_.addTarget(moverAt(firstSight(detection, sensor, consistency_),
                                          parameters_.velocity_std, parameters_.acceleration_std));
         innovation.track = tracks_.addTrack(block, detection.source, batch.now).id;
         innovation.outcome = Outcome::initiated;

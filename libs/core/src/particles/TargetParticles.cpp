@@ -166,14 +166,16 @@ BlockId TargetParticles::addTarget(const RelativeGaussian& target) {
     return last_target_;
 }
 
-LandmarkId TargetParticles::addLandmark(const RelativeGaussian& point, LandmarkFilter landmark) {
+LandmarkId TargetParticles::addLandmark(const std::vector<TentativeSight>& sights, double gate,
+                                        LandmarkFilter landmark) {
     landmark.id = particles_.scans().freshNumber();
-    particles_.forEachParticle([&](int, LandmarksAndTargets& map, const PoseBelief& pose) {
-        const NewBlock sight = inWorld(point, pose.mean);
+    std::vector<double> log_likelihoods(static_cast<std::size_t>(particles_.cloud().count()), 0);
+    particles_.forEachParticle([&](int i, LandmarksAndTargets& map, const PoseBelief&) {
         LandmarkFilter mine = landmark;
-        mine.point = {sight.mean, sight.own};
+        mine.point = map.pointOf(settings_, sights, gate, log_likelihoods[static_cast<std::size_t>(i)]);
         map.landmarks().add(mine);
     });
+    if (sights.size() > 1) particles_.weigh(log_likelihoods);
     return landmark.id;
 }
 

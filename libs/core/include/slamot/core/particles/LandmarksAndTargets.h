@@ -4,6 +4,7 @@
 // (doc/plugins/pf_slamot.md). All particles have the same movers in the same order.
 #include <vector>
 
+#include "slamot/core/objects/TentativeObjects.h"
 #include "slamot/core/particles/LandmarkFilters.h"
 #include "slamot/core/particles/TargetFilter.h"
 
@@ -28,8 +29,15 @@ class LandmarksAndTargets {
     }
     double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
                   std::vector<SightRecord>& records) {
+        remember(pose, scan);
         return landmarks_.update(settings.landmarks, pose, drawn, scan, work, records);
     }
+
+    /// A landmark as its sights show it from where this particle's path has them made; those it remembers, the present
+    /// scan's among them. Sights after the first of a NIS above `gate` were of something else. Adds the log of their
+    /// likelihood given the first.
+    GaussianPoint pointOf(const Settings& settings, const std::vector<TentativeSight>& sights, double gate,
+                          double& log_likelihood) const;
 
     const LandmarkFilter* find(LandmarkId id) const { return landmarks_.find(id); }
     static bool isConfirmed(const Settings& settings, const LandmarkFilter& landmark) {
@@ -46,10 +54,16 @@ class LandmarksAndTargets {
     const std::vector<TargetFilter>& targets() const { return targets_; }
 
   private:
+    struct PastPose {
+        Stamp at;
+        Vector3 pose;
+    };
+    void remember(const Vector3& pose, const ParticleScan& scan);
     void findRivals(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
 
     LandmarkFilters landmarks_;
     std::vector<TargetFilter> targets_;
+    std::vector<PastPose> path_;  ///< at the latest scans that showed what may be of either kind, oldest first
 };
 
 }  // namespace slamot

@@ -30,8 +30,8 @@ struct MoverBatch {
 class MoverLife {
   public:
     /// velocity_std, acceleration_std: of a mover at first sight; gate_probability: of detections.
-    MoverLife(const ObjectLifeParameters& parameters, double velocity_std, double acceleration_std,
-              double gate_probability);
+    MoverLife(const ObjectLifeParameters& parameters, Consistency consistency, double velocity_std,
+              double acceleration_std, double gate_probability);
 
     void clear();
     /// Whether there is anything beside the particles.
@@ -59,17 +59,20 @@ class MoverLife {
     void changeKinds(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch);
     std::vector<int> findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
                                std::vector<Innovation>& innovations);
+    RelativeGaussian sightAlone(const MoverBatch& batch, int detection) const;
     TrackId becomeMover(TargetParticles& particles, ObjectCatalogue& tracks, LandmarkId landmark,
                         const MoverBatch& batch, int detection);
     void becomeLandmark(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track,
                         const MoverBatch& batch, int detection);
     void admit(TargetParticles& particles, ObjectCatalogue& tracks, const ConfirmedObject& confirmed, Stamp now,
                Innovation& innovation);
-    void addLandmark(TargetParticles& particles, const RelativeGaussian& point, const Existence& existence,
-                     double moving, int seen, Stamp first_seen, Stamp now, LandmarkId& id);
+    /// A landmark of unknown kind, with what `landmark` says of its life; P(moving) is watched from now on.
+    LandmarkId addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
+                           LandmarkFilter landmark, double moving, Stamp now);
     void removeTrack(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track);
 
     ObjectLifeParameters parameters_;
+    Consistency consistency_;
     double velocity_std_, acceleration_std_;
     double pair_gate_;
     TentativeObjects tentative_;

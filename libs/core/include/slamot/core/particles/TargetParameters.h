@@ -41,6 +41,8 @@ std::vector<std::string> modeNames(const TargetParticleParameters& parameters);
 
 /// Throw std::invalid_argument with one sentence when the modes do not fit together.
 TargetSettings targetSettings(const TargetParticleParameters& parameters);
+/// How moments over particles meet the sensor model: as the particles themselves do it, to first or second order.
+Consistency consistencyOf(const TargetParticleParameters& parameters);
 /// What movers without identity and objects of unknown kind live by.
 ObjectLifeParameters lifeOf(const TargetParticleParameters& parameters);
 /// Which detection is of which mover.

@@ -46,6 +46,7 @@ class TargetParticleFilter {
 
     TargetParticleParameters parameters_;
     RobotMotionParameters motion_;
+    Consistency consistency_;
     std::vector<TargetModel> models_;
     TargetParticles particles_;
     ObjectCatalogue tracks_;  ///< has no landmarks

@@ -66,10 +66,11 @@ class TargetParticles {
     void updateByTargets(const std::vector<TargetDetection>& detections);
     void resample() { particles_.resample(); }
 
-    /// Both in all particles at once; poses are points then. `target`: [p v a], robot's frame; likewise a landmark,
-    /// whose number and point are filled in.
+    /// Both in all particles at once; poses are points then. `target`: [p v a], robot's frame.
     BlockId addTarget(const RelativeGaussian& target);
-    LandmarkId addLandmark(const RelativeGaussian& point, LandmarkFilter landmark);
+    /// Number and point are filled in, from sights of this and earlier scans (LandmarksAndTargets::pointOf), which
+    /// weigh particles now.
+    LandmarkId addLandmark(const std::vector<TentativeSight>& sights, double gate, LandmarkFilter landmark);
     void removeTarget(BlockId target);
     void removeLandmark(LandmarkId landmark);
 
