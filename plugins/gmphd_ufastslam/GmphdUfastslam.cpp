@@ -8,14 +8,12 @@ std::vector<ParameterTable> GmphdUfastslam::onParameters() {
     ParameterTable filter(
         name(), "Particles with an unscented filter for the pose and a density for a map (paper 4).");
     describe(particles_, filter);
-    return {describe(motion_), filter, describe(map_, name())};
+    return withMotion({filter, describe(map_, name())});
 }
 
 void GmphdUfastslam::onStart(const Start& start) {
-    filter_ = std::make_unique<ParticleFilter<PhdMap>>(particles_, motion_,
-                                                       PhdMap::Settings(map_, particles_.transform),
-                                                       ScanMaker(map_.clutter(), true), start.threads);
-    filter_->start(start.pose, start.seed);
+    begin(start, particles_, motion(), PhdMap::Settings(map_, particles_.transform), ScanMaker(map_.clutter(), true),
+          start.threads);
 }
 
 }  // namespace slamot

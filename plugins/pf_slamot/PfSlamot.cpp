@@ -7,12 +7,8 @@ IMPLEMENTS_MRPT_OBJECT(PfSlamot, Estimator, slamot)
 namespace slamot {
 
 std::vector<ParameterTable> PfSlamot::onParameters() {
-    std::vector<ParameterTable> tables{describe(motion_)};
-    for (ParameterTable& table : describe(
-             parameters_, name(),
-             "Particles over the robot's path, each with filters for landmarks and movers (paper 2)."))
-        tables.push_back(std::move(table));
-    return tables;
+    return withMotion(describe(parameters_, name(),
+                               "Particles over the robot's path, each with filters for landmarks and movers (paper 2)."));
 }
 
 void PfSlamot::onInitialize(const Config& config) {
@@ -25,8 +21,7 @@ void PfSlamot::onInitialize(const Config& config) {
 }
 
 void PfSlamot::onStart(const Start& start) {
-    filter_ = std::make_unique<TargetParticleFilter>(parameters_, motion_, start.threads);
-    filter_->start(start.pose, start.seed);
+    begin(start, parameters_, motion(), start.threads);
 }
 
 }  // namespace slamot

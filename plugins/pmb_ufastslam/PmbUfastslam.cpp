@@ -7,16 +7,12 @@ namespace slamot {
 std::vector<ParameterTable> PmbUfastslam::onParameters() {
     ParameterTable filter(name(), "Particles with a Poisson multi-Bernoulli map and unscented transforms.");
     describe(particles_, filter);
-    std::vector<ParameterTable> tables{describe(motion_), filter};
-    for (ParameterTable& table : describe(landmarks_, name())) tables.push_back(std::move(table));
-    return tables;
+    return withMotion({filter}, describe(landmarks_, name()));
 }
 
 void PmbUfastslam::onStart(const Start& start) {
-    filter_ = std::make_unique<ParticleFilter<BernoulliMap>>(
-        particles_, motion_, BernoulliMap::Settings(landmarks_, particles_.transform),
-        ScanMaker(landmarks_.life, landmarks_.use_nameless), start.threads);
-    filter_->start(start.pose, start.seed);
+    begin(start, particles_, motion(), BernoulliMap::Settings(landmarks_, particles_.transform),
+          ScanMaker(landmarks_.life, landmarks_.use_nameless), start.threads);
 }
 
 }  // namespace slamot

@@ -200,16 +200,21 @@ std::vector<TrackEstimate> TargetParticleFilter::tracks() const {
     return out;
 }
 
+std::vector<LandmarkEstimate> TargetParticleFilter::withMotion(std::vector<LandmarkEstimate> landmarks) const {
+    for (LandmarkEstimate& landmark : landmarks) landmark.moving = life_.movingProbability(landmark.id);
+    return landmarks;
+}
+
 std::vector<LandmarkEstimate> TargetParticleFilter::landmarks() const {
-    std::vector<LandmarkEstimate> out = particles_.particles().landmarks();
-    for (LandmarkEstimate& landmark : out) landmark.moving = life_.movingProbability(landmark.id);
-    return out;
+    return withMotion(particles_.particles().landmarks());
 }
 
 std::vector<LandmarkEstimate> TargetParticleFilter::landmarks(const std::vector<LandmarkId>& ids) const {
-    std::vector<LandmarkEstimate> out = particles_.particles().landmarks(ids);
-    for (LandmarkEstimate& landmark : out) landmark.moving = life_.movingProbability(landmark.id);
-    return out;
+    return withMotion(particles_.particles().landmarks(ids));
+}
+
+std::vector<LandmarkEstimate> TargetParticleFilter::tentative() const {
+    return withMotion(particles_.particles().tentative());
 }
 
 }  // namespace slamot

@@ -48,6 +48,8 @@ class LandmarksAndTargets {
         landmarks_.forEachConfirmed(settings.landmarks, visit);
     }
 
+    const SharedPages<LandmarkFilter>& features() const { return landmarks_.features(); }
+
     LandmarkFilters& landmarks() { return landmarks_; }
     const LandmarkFilters& landmarks() const { return landmarks_; }
     std::vector<TargetFilter>& targets() { return targets_; }

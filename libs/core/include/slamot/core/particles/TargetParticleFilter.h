@@ -25,16 +25,19 @@ class TargetParticleFilter {
     UpdateReport update(const DetectionSet& detections);
 
     PoseGaussian robot() const { return particles_.particles().robot(); }
+    std::vector<ParticleEstimate> particles() const { return particles_.particles().particles(); }
     std::vector<TrackEstimate> tracks() const;
     std::vector<LandmarkEstimate> landmarks() const;
     std::vector<LandmarkEstimate> landmarks(const std::vector<LandmarkId>& ids) const;
+    /// Of landmarks alone: what may be a mover is MoverLife's.
+    std::vector<LandmarkEstimate> tentative() const;
     std::int64_t landmarkCount() const { return particles_.particles().landmarkCount(); }
     /// Empty for movers of one motion.
     std::vector<std::string> modeNames() const { return slamot::modeNames(parameters_); }
 
-    const TargetParticles& particles() const { return particles_; }
-
   private:
+    /// P(moving) filled in.
+    std::vector<LandmarkEstimate> withMotion(std::vector<LandmarkEstimate> landmarks) const;
     bool isAssociated(const RangeBearingDetection& detection) const;
     void endUnseenTracks(Stamp now);
     /// What movers there are make of a batch.
