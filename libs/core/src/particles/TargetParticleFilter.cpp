@@ -20,8 +20,7 @@ TargetParticleFilter::TargetParticleFilter(const TargetParticleParameters& p, co
       particles_(p.particles, motion,
                  {LandmarkFilters::Settings(p.landmarks, p.particles.transform), targetSettings(p),
                   p.life.movers.detection_probability},
-                 ScanMaker(p.landmarks.life, p.landmarks.association != ParticleAssociation::known,
-                           p.association != MoverAssociation::known),
+                 ScanMaker(p.landmarks.life, p.landmarks.association != ParticleAssociation::known, true),
                  p.weigh_targets, threads),
       associator_(associationOf(p), consistency_),
       life_(lifeOf(p), consistency_, p.velocity_std, p.acceleration_std, p.landmarks.gate_probability) {}
@@ -117,7 +116,6 @@ void TargetParticleFilter::pairNamed(MoverBatch& batch, std::vector<Innovation>&
         const RangeBearingDetection& detection = batch.seen.detections[d];
         if (detection.kind != ObjectKind::mover || !isNamed(detection)) continue;
         const TrackRecord* track = tracks_.trackBySource(detection.source);
-        // The same mover twice in a batch: the first is used.
         if (track)
             batch.sights.emplace(track->block, static_cast<int>(d));
         else

@@ -1,0 +1,195 @@
+#include "slamot/core/particles/TargetParticles.h"
+
+#include <cmath>
+
+#include "support/Expect.h"
+#include "support/Scenes.h"
+
+namespace slamot {
+namespace {
+
+using test::detectionsAt;
+using test::near;
+using test::odometry;
+using test::seen;
+
+constexpr ObjectKind landmark = ObjectKind::landmark, mover = ObjectKind::mover, unknown = ObjectKind::unknown;
+
+RobotMotionParameters motion() {
+    RobotMotionParameters out;
+    out.model = RobotMotionModel::increment;
+    return out;
+}
+
+TargetParticles particlesOf(int count, bool weigh_targets = true, PoseProposal proposal = PoseProposal::motion) {
+    LandmarkFilterParameters landmarks;
+    TargetSettings targets;
+    targets.models[0].noise_std = 0.3;
+    return TargetParticles({count, proposal, GaussianTransform::linear}, motion(),
+                           {LandmarkFilters::Settings(landmarks, GaussianTransform::linear), targets, 0.9},
+                           ScanMaker(landmarks.life, true, true), weigh_targets, 1);
+}
+
+RelativeGaussian moverAtPoint(const Vector2& at) {
+    RelativeGaussian out = moverAt({at, Matrix2(Vector2(0.01, 0.02).asDiagonal())}, 1, 0);
+    out.mean.segment<2>(2) << 1, -0.5;
+    return out;
+}
+
+DetectionSet scanAt(double t, std::vector<RangeBearingDetection> detections) {
+    DetectionSet set = detectionsAt(t, std::move(detections));
+    std::get<RangeBearingSet>(set.measurements).sensors.front().max_range = 30;
+    return set;
+}
+
+TargetDetection detectionOf(BlockId target, const RangeBearingDetection& detection) {
+    return {target, {detection.z(), detection.covariance, {}}};
+}
+
+// A mover as seen from an uncertain robot: P_TT = G P_RR G^t + own, P_RT = P_RR G^t (paper 1, eq. 13 to 17). With 4,000
+// particles an entry of a covariance is off by 1/sqrt(2,000) of the deviations' product or so; five times that.
+TEST(TargetParticlesTest, ManyParticlesHaveTheMomentsOfTheJointFilter) {
+    TargetParticles particles = particlesOf(4000);
+    PoseGaussian start{{1, -2, 3.1}, Matrix3(Vector3(0.04, 0.09, 1e-4).asDiagonal())};
+    start.covariance(0, 1) = start.covariance(1, 0) = 0.03;
+    particles.start(start, 5);
+    const RelativeGaussian relative = moverAtPoint({4, 3});
+    const BlockId target = particles.addTarget(relative);
+    const NewBlock expected = inWorld(relative, start.mean.vector());
+    const MergedTargets merged = particles.merged();
+    EXPECT_TRUE(near(merged.mean(target), expected.mean, 0.01));
+    EXPECT_NEAR(wrapAngle(merged.mean(robot_block)(2) - 3.1), 0, 1e-3);
+
+    const BlockMatrix P_TT = expected.G * start.covariance * expected.G.transpose() + expected.own;
+    const BlockMatrix P_RT = start.covariance * expected.G.transpose();
+    const auto expectNear = [](const BlockMatrix& value, const BlockMatrix& wanted, const BlockVector& rows,
+                               const BlockVector& columns) {
+        for (Eigen::Index i = 0; i < wanted.rows(); ++i)
+            for (Eigen::Index j = 0; j < wanted.cols(); ++j)
+                EXPECT_NEAR(value(i, j), wanted(i, j), 5 / std::sqrt(2000.0) * rows(i) * columns(j) + 1e-12) << i << j;
+    };
+    const BlockVector d_R = start.covariance.diagonal().cwiseSqrt(), d_T = P_TT.diagonal().cwiseSqrt();
+    expectNear(merged.covariance(target, target), P_TT, d_T, d_T);
+    expectNear(merged.covariance(robot_block, target), P_RT, d_R, d_T);
+    expectNear(merged.covariance(robot_block, robot_block), start.covariance, d_R, d_R);
+}
+
+TEST(TargetParticlesTest, TheWaysToAskForMomentsAgree) {
+    TargetParticles particles = particlesOf(20);
+    particles.start({{}, Matrix3(Vector3(0.04, 0.09, 1e-2).asDiagonal())}, 5);
+    const BlockId a = particles.addTarget(moverAtPoint({4, 3})), b = particles.addTarget(moverAtPoint({-4, 1}));
+    particles.predict(odometry(0, 0.1, {0.2, 0, 0.1}));
+    const MergedTargets merged = particles.merged();
+    for (const BlockId target : {a, b}) {
+        const TargetBelief belief = particles.target(target);
+        EXPECT_TRUE(near(merged.mean(target), belief.mean, 1e-12));
+        EXPECT_TRUE(near(merged.covariance(target, target), belief.covariance, 1e-12));
+    }
+    const PoseGaussian robot = particles.particles().robot();
+    EXPECT_TRUE(near(merged.mean(robot_block), robot.mean.vector(), 1e-12));
+    EXPECT_TRUE(near(merged.covariance(robot_block, robot_block), robot.covariance, 1e-12));
+    const Eigen::MatrixXd P = merged.jointCovariance({b, robot_block, a});
+    EXPECT_TRUE(near(P.block(0, 6, 6, 3), merged.covariance(b, robot_block), 0));
+    EXPECT_TRUE(near(P.block(9, 0, 6, 6), merged.covariance(a, b), 0));
+
+    // Numbers stay with their movers.
+    const Vector6 before = particles.target(b).mean;
+    particles.removeTarget(a);
+    EXPECT_EQ(particles.target(b).mean, before);
+    EXPECT_THROW(particles.target(a), std::out_of_range);
+    EXPECT_NE(particles.addTarget(moverAtPoint({1, 1})), a);
+}
+
+// Eq. 11: particles from which the mover is seen where it was expected gain.
+TEST(TargetParticlesTest, MoversWeighParticlesWhereTheyShall) {
+    for (const bool weigh : {true, false}) {
+        TargetParticles particles = particlesOf(50, weigh);
+        particles.start({}, 5);
+        const BlockId target = particles.addTarget(moverAtPoint({4, 3}));
+        particles.predict(odometry(0, 0.1, {1, 0, 0.5}));
+        std::vector<double> log_w;
+        for (int i = 0; i < 50; ++i) {
+            TargetFilter filter = particles.particles().map(i).targets().at(0);
+            const RangeBearingDetection d = seen({1, 0, 0.5}, {4.1, 2.95}, mover, 1);
+            log_w.push_back(filter.update(TargetSettings(), particles.particles().cloud().pose(i).mean,
+                                          {d.z(), d.covariance, {}}));
+        }
+        particles.updateByTargets({detectionOf(target, seen({1, 0, 0.5}, {4.1, 2.95}, mover, 1))});
+        double sum = 0;
+        for (const double each : log_w) sum += std::exp(each);
+        for (int i = 0; i < 50; ++i)
+            EXPECT_NEAR(particles.particles().cloud().weights()[i],
+                        weigh ? std::exp(log_w[static_cast<std::size_t>(i)]) / sum : 0.02, 1e-12);
+    }
+}
+
+// A detection that may be of something else says no more against a particle than that.
+TEST(TargetParticlesTest, WhatMayNotBeTheMoversWeighsLittle) {
+    TargetParticles particles = particlesOf(2);
+    particles.start({{}, Matrix3(Vector3(1, 1, 1).asDiagonal())}, 5);
+    const BlockId target = particles.addTarget(moverAtPoint({4, 3}));
+    // Expected at (4, 3) of its own frame by each particle; seen 5 m behind.
+    TargetDetection detection = detectionOf(target, seen({}, {8, 6}, mover, 1));
+    detection.visible = 0.25;
+    detection.detection_probability = 0.9;
+    detection.unexplained = 0.01;
+    particles.updateByTargets({detection});
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(particles.particles().cloud().weights()[i], 0.5, 1e-9);
+}
+
+// Sights of what turns out to be a landmark are taken in where the path has them made.
+TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
+    TargetParticles particles = particlesOf(1);
+    particles.start({}, 5);
+    const std::vector<RangeBearingDetection> sights{seen({}, {5, 0}, unknown, -1), seen({}, {5.3, 0}, unknown, -1),
+                                                    seen({}, {5, 3}, unknown, -1), seen({}, {5, 0.1}, unknown, -1)};
+    std::vector<TentativeSight> tentative;
+    for (int k = 0; k < 4; ++k) {
+        const auto& sight = sights[static_cast<std::size_t>(k)];
+        particles.updateByLandmarks(scanAt(k, {sight}), true);
+        tentative.push_back({Stamp::fromSeconds(k), sight, {}});
+        EXPECT_EQ(particles.particles().landmarkCount(), 0);
+        ASSERT_EQ(particles.landmarkVerdicts().size(), 1u);
+        EXPECT_TRUE(particles.landmarkVerdicts()[0].may_be_new);
+        EXPECT_FALSE(particles.landmarkVerdicts()[0].explained);
+    }
+    LandmarkFilter life;
+    life.seen = 4;
+    const LandmarkId id = particles.addLandmark(tentative, 13.8, life);
+    const LandmarkFilter* point = particles.particles().best().find(id);
+    ASSERT_NE(point, nullptr);
+    EXPECT_EQ(point->seen, 4);
+    // Ranges 5, 5.3 and 5.001 with equal weight; the third sight lies outside the gate.
+    EXPECT_NEAR(point->point.mean.x(), 5.1, 3e-3);
+    EXPECT_NEAR(point->point.covariance(0, 0), 0.01 / 3, 1e-5);
+
+    // It explains its next sight; another one may be new.
+    particles.updateByLandmarks(scanAt(5, {seen({}, {-4, 2}, unknown, -1), seen({}, {5.1, 0}, unknown, -1)}), true);
+    const auto verdicts = particles.landmarkVerdicts();
+    ASSERT_EQ(verdicts.size(), 2u);
+    EXPECT_TRUE(verdicts[0].may_be_new);
+    EXPECT_TRUE(verdicts[1].explained);
+    EXPECT_EQ(verdicts[1].landmark, id);
+    particles.removeLandmark(id);
+    EXPECT_EQ(particles.particles().landmarkCount(), 0);
+}
+
+TEST(TargetParticlesTest, ASightThatIsLikelierOfAMoverIsLeftToIt) {
+    TargetParticles particles = particlesOf(1);
+    particles.start({}, 5);
+    particles.updateByLandmarks(scanAt(0, {seen({}, {5, 0}, unknown, -1)}), true);
+    const LandmarkId id =
+        particles.addLandmark({{Stamp::fromSeconds(0), seen({}, {5, 0}, unknown, -1), {}}}, 13.8, LandmarkFilter());
+    particles.addTarget(moverAtPoint({5, 0.4}));
+    particles.updateByLandmarks(scanAt(1, {seen({}, {5, 0.38}, unknown, -1)}), true);
+    EXPECT_FALSE(particles.landmarkVerdicts().at(0).explained);
+    EXPECT_FALSE(particles.landmarkVerdicts().at(0).may_be_new);
+    particles.updateByLandmarks(scanAt(2, {seen({}, {5, 0.02}, unknown, -1)}), true);
+    EXPECT_EQ(particles.landmarkVerdicts().at(0).landmark, id);
+    // Seen as a landmark it can be nothing else.
+    particles.updateByLandmarks(scanAt(3, {seen({}, {5, 0.38}, landmark, -1)}), true);
+    EXPECT_TRUE(particles.landmarkVerdicts().empty());
+}
+
+}  // namespace
+}  // namespace slamot
