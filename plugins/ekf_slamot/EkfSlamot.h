@@ -28,6 +28,7 @@ class EkfSlamot : public Estimator {
         return filter_->landmarks(ids);
     }
     std::int64_t onLandmarkCount() const override { return filter_->landmarkCount(); }
+    std::vector<LandmarkEstimate> onTentative() const override { return filter_->tentative(); }
     JointCovariance onJointCovariance() const override { return filter_->jointCovariance(); }
 
   private:

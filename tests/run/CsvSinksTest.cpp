@@ -96,6 +96,11 @@ run::RunEnd fullEnd() {
     return end;
 }
 
+/// Below its head.
+std::string rowsOf(const std::string& text) {
+    return text.substr(text.find('\n') + 1);
+}
+
 TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
     run::TrajectorySink trajectory(folder, 0);
     run::TracksSink tracks(folder, 0, {"cv", "ct"});
@@ -103,8 +108,11 @@ TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
     run::LandmarksHistorySink history(folder);
     run::InnovationsSink innovations(folder);
     run::StepsSink steps(folder);
+    run::TentativeSink tentative(folder, 0);
+    run::ParticlesSink particles(folder, 0, 10);
     for (run::Sink* sink :
-         std::initializer_list<run::Sink*>{&trajectory, &tracks, &landmarks, &history, &innovations, &steps})
+         std::initializer_list<run::Sink*>{&trajectory, &tracks, &landmarks, &history, &innovations, &steps,
+                                          &tentative, &particles})
         sink->end({});
     EXPECT_EQ(firstLineOf(path("trajectory.csv")), "t,x,y,theta,c_xx,c_xy,c_xt,c_yy,c_yt,c_tt");
     EXPECT_EQ(firstLineOf(path("tracks.csv")),
@@ -120,6 +128,8 @@ TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
         "t,sensor,kind,landmark,track,outcome,r_range,r_bearing,s_rr,s_rb,s_bb,nis,detection,log_number,log_"
         "count");
     EXPECT_EQ(firstLineOf(path("steps.csv")), "t,landmarks,tracks,ms_predict,ms_detect,ms_update");
+    EXPECT_EQ(firstLineOf(path("tentative.csv")), firstLineOf(path("landmarks_history.csv")));
+    EXPECT_EQ(firstLineOf(path("particles.csv")), "t,particle,weight,x,y,theta");
 }
 
 TEST_F(CsvSinksTest, ARowReadsAsWritten) {
@@ -141,8 +151,50 @@ TEST_F(CsvSinksTest, TheHistoryTellsExistenceAndMovement) {
     run::LandmarksHistorySink sink(folder);
     sink.step(fullStep(1.25, 1));
     sink.end({});
-    const std::string text = textOf(path("landmarks_history.csv"));
-    EXPECT_EQ(text.substr(text.find('\n') + 1), "1577836801.2500000,3,0,0,0,0,0,0.75,0.25,-1\n");
+    EXPECT_EQ(rowsOf(textOf(path("landmarks_history.csv"))), "1577836801.2500000,3,0,0,0,0,0,0.75,0.25,-1\n");
+}
+
+TEST_F(CsvSinksTest, ParticlesAreWrittenAtTheRowsOfTheTrajectoryAndThinnedByWeight) {
+    Spy spy;
+    const Matrix3 none = Matrix3::Zero();
+    spy.cloud = {
+        {0.5, {{1, 2, 3}, none}}, {0.25, {{1.5, 2, -3}, none}}, {0.125, {{4, 0, 0}, none}}, {0.125, {{5, 0, 0}, none}}};
+    const auto take = [&](run::Sink& sink, Step step) {
+        step.estimator = &spy;
+        sink.step(step);
+    };
+    run::ParticlesSink all(folder, 1, 4);
+    take(all, emptyStep(0.25));
+    take(all, emptyStep(0.5));  // no row of the trajectory
+    all.end({});
+    EXPECT_EQ(rowsOf(textOf(path("particles.csv"))),
+              "1577836800.2500000,0,0.5,1,2,3\n1577836800.2500000,1,0.25,1.5,2,-3\n"
+              "1577836800.2500000,2,0.125,4,0,0\n1577836800.2500000,3,0.125,5,0,0\n");
+    run::ParticlesSink two(folder, 1, 2);
+    take(two, emptyStep(0.25));
+    two.end({});
+    EXPECT_EQ(rowsOf(textOf(path("particles.csv"))),
+              "1577836800.2500000,0,0.5,1,2,3\n1577836800.2500000,1,0.5,1.5,2,-3\n");
+}
+
+TEST_F(CsvSinksTest, TentativeLandmarksAreAllWrittenAtEveryRow) {
+    Spy spy;
+    run::TentativeSink sink(folder, 0);
+    for (const double t : {0.25, 0.5, 0.75}) {
+        LandmarkEstimate candidate;
+        candidate.id = {7};
+        candidate.mean = {1, t};
+        candidate.existence = t;
+        spy.candidates.push_back(candidate);
+        if (t == 0.75) spy.candidates.clear();
+        Step step = emptyStep(t);
+        step.estimator = &spy;
+        sink.step(step);
+    }
+    sink.end({});
+    EXPECT_EQ(rowsOf(textOf(path("tentative.csv"))),
+              "1577836800.2500000,7,1,0.25,0,0,0,0.25,0,-1\n1577836800.5000000,7,1,0.25,0,0,0,0.25,0,-1\n"
+              "1577836800.5000000,7,1,0.5,0,0,0,0.5,0,-1\n");
 }
 
 void expectEqual(const eval::RunRecord& read, const eval::RunRecord& kept) {

@@ -415,6 +415,7 @@ TEST_F(PipelineTest, OneStepPerStampAndOneEnd) {
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(sink.steps[i].estimate.stamp, at(stamps[i])) << i;
         EXPECT_EQ(sink.steps[i].has_detections, with_detections[i]) << i;
+        EXPECT_EQ(sink.steps[i].estimator, spy.get()) << i;
     }
     ASSERT_EQ(sink.ends.size(), 1u);
     EXPECT_EQ(sink.observations, 5);

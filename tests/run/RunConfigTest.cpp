@@ -48,7 +48,7 @@ TEST(RunConfigTest, EverySectionIsRead) {
         "[noise.front camera]\nrange_std_per_m = 0.05\nbearing_std_deg = 180\n"
         "[clutter]\nper_scan = 5\ndetection_probability = 0.9\nseed = 18446744073709551615\n"
         "[start]\npose = 1, -2, 90\nposition_std = 0.1\nheading_std_deg = 90\n"
-        "[output]\ninterval = 0.5\nscene = false\n"
+        "[output]\ninterval = 0.5\nscene = false\ntentative = true\nparticles = true\nmost_particles = 7\n"
         "[motion]\nmodel = arc\n[dead_reckoning]\nnoise_scale = 2\n");
     const run::RunConfig& c = run.config;
     EXPECT_EQ(run.estimator->name(), "dead_reckoning");
@@ -73,6 +73,9 @@ TEST(RunConfigTest, EverySectionIsRead) {
     EXPECT_EQ(c.start.heading_std, pi / 2);
     EXPECT_EQ(c.output.interval, 0.5);
     EXPECT_FALSE(c.output.scene);
+    EXPECT_TRUE(c.output.tentative);
+    EXPECT_TRUE(c.output.particles);
+    EXPECT_EQ(c.output.most_particles, 7);
     EXPECT_TRUE(c.output.map);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 
 #include "run/Spy.h"
 #include "slamot/rawlog/CsvTable.h"
@@ -143,6 +144,36 @@ TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {
            "map = false\nscene = false\nsteps = false\n");
     EXPECT_THAT(outputs(), testing::ElementsAre("landmarks.csv", "summary.json", "tracks.csv",
                                                 "trajectory.csv", "trajectory.tum"));
+}
+
+TEST_F(RunJobTest, ParticlesAreWrittenOnRequestAndChangeNothing) {
+    writeLog(path("a.rawlog"), drive());
+    const std::string config =
+        "[run]\nestimator = fastslam\n[fastslam]\nparticles = 20\n[identities]\nlandmarks = hidden\n[output]\nmap = false\n";
+    const auto plain = runLog("a.rawlog", config);
+    const auto without = outputs();
+    const auto asked = runLog("a.rawlog", config + "particles = true\nmost_particles = 10\ntentative = true\n");
+    EXPECT_EQ(asked.estimate_hash, plain.estimate_hash);
+    EXPECT_THAT(outputs(), testing::IsSupersetOf({"particles.csv", "tentative.csv"}));
+    EXPECT_EQ(outputs().size(), without.size() + 2);
+
+    std::map<std::int64_t, double> sums;  // of weights, by stamp
+    CsvReader particles(path("out/particles.csv"));
+    while (particles.next()) sums[particles.stamp(0).ticks] += particles.number(particles.column("weight"));
+    EXPECT_EQ(sums.size(), asked.record.trajectory.size());
+    for (const auto& [ticks, sum] : sums) EXPECT_NEAR(sum, 1, 1e-12);
+
+    // Two landmarks, which became certain later.
+    std::set<std::int64_t> candidates;
+    CsvReader tentative(path("out/tentative.csv"));
+    while (tentative.next()) {
+        candidates.insert(tentative.integer(tentative.column("id")));
+        EXPECT_LT(tentative.number(tentative.column("existence")), 1);
+    }
+    for (const LandmarkEstimate& landmark : asked.record.landmarks) EXPECT_EQ(candidates.count(landmark.id.value), 1u);
+    EXPECT_EQ(asked.record.landmarks.size(), 2u);
+    runLog("a.rawlog", config);
+    EXPECT_EQ(outputs(), without);
 }
 
 TEST_F(RunJobTest, TheFolderReadsBackAsTheResultsRecord) {

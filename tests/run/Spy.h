@@ -34,6 +34,9 @@ class Spy : public Estimator {
     /// The robot's pose at each set.
     std::vector<Pose2> poses;
     std::string missing;
+    /// What it says of itself.
+    std::vector<ParticleEstimate> cloud;
+    std::vector<LandmarkEstimate> candidates;
     /// CPU time that each update burns [s], in a thread of its own.
     double burn = 0;
 
@@ -54,6 +57,8 @@ class Spy : public Estimator {
         return {};
     }
     PoseGaussian onRobot() const override { return pose_; }
+    std::vector<ParticleEstimate> onParticles() const override { return cloud; }
+    std::vector<LandmarkEstimate> onTentative() const override { return candidates; }
 
   private:
     static void burnCpu(double seconds) {

@@ -1,6 +1,9 @@
 // How each layer of the replay is drawn at its present frame, from the data that ReplayLayers.cpp gives it. A layer is an
 // entry here and one there.
 
+/** Of something that exists with this probability [%]: what hardly does is still seen. */
+function opacityOf(existence) { return 0.25 + 0.75 * existence / 100; }
+
 const replayLayers = {
   truth(replay, {robot, targets, landmarks}) {
     const {colours} = replay.data, c = replay.context;
@@ -58,8 +61,10 @@ const replayLayers = {
     const {colours} = replay.data, c = replay.context, rows = replay.knownLandmarks();
     c.fillStyle = c.strokeStyle = theme.colourOf(colours.landmark);
     for (const row of rows) {
+      if (landmarks.existence) c.globalAlpha = opacityOf(landmarks.existence[row]);
       c.fillRect(replay.toX(landmarks.x[row]) - 1.5, replay.toY(landmarks.y[row]) - 1.5, 3, 3);
     }
+    c.globalAlpha = 1;
     if (!replay.wants('ellipses')) return;
     c.lineWidth = 0.8;
     c.globalAlpha = 0.6;
@@ -69,6 +74,18 @@ const replayLayers = {
       replay.ellipse(landmarks.x[row], landmarks.y[row], landmarks.a[row], landmarks.b[row], landmarks.angle[row]);
     }
     c.stroke();
+    c.globalAlpha = 1;
+  },
+
+  tentative(replay, {from, to, x, y, existence}) {
+    const c = replay.context, i = replay.frame;
+    c.strokeStyle = theme.colourOf(replay.data.colours.landmark);
+    c.lineWidth = 1;
+    for (let k = 0; k < from.length; ++k) {
+      if (i < from[k] || i >= to[k]) continue;
+      c.globalAlpha = opacityOf(existence[k]);
+      c.strokeRect(replay.toX(x[k]) - 3, replay.toY(y[k]) - 3, 6, 6);
+    }
     c.globalAlpha = 1;
   },
 
@@ -95,6 +112,25 @@ const replayLayers = {
       c.font = '12px sans-serif';
       c.fillText(mode ? `${track.name}: ${mode.name}` : track.name, px + 9, py - 7);
     }
+  },
+
+  /** A dot for each, with a tick where it is headed. */
+  particles(replay, {first, unit, x, y, theta, weight}) {
+    const {robot, colours} = replay.data, c = replay.context, i = replay.frame, tick = 8;
+    c.strokeStyle = c.fillStyle = theme.colourOf(colours.particle);
+    c.lineWidth = 1;
+    for (let k = first[i]; k < first[i + 1]; ++k) {
+      const px = replay.toX(robot.x[i] + unit * x[k]), py = replay.toY(robot.y[i] + unit * y[k]);
+      c.globalAlpha = 0.2 + 0.8 * weight[k] / 9;
+      c.beginPath();
+      c.arc(px, py, 1.8, 0, 2 * Math.PI);
+      c.fill();
+      c.beginPath();
+      c.moveTo(px, py);
+      c.lineTo(px + tick * Math.cos(theta[k] / 100), py - tick * Math.sin(theta[k] / 100));
+      c.stroke();
+    }
+    c.globalAlpha = 1;
   },
 
   robot(replay, robot) {

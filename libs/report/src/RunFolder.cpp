@@ -53,6 +53,7 @@ std::vector<LandmarkSight> readSights(const std::string& file) {
     const int t = table.column("t"), id = table.column("id"), x = table.column("x"), y = table.column("y");
     const int xx = table.column("c_xx"), xy = table.column("c_xy"), yy = table.column("c_yy"),
               source = table.column("source_id");
+    const int existence = table.has("existence") ? table.column("existence") : -1;
     std::vector<LandmarkSight> sights;
     while (table.next()) {
         LandmarkSight sight;
@@ -62,9 +63,29 @@ std::vector<LandmarkSight> readSights(const std::string& file) {
         sight.mean = {finite(table, x), finite(table, y)};
         const double covariance = finite(table, xy);
         sight.covariance << finite(table, xx), covariance, covariance, finite(table, yy);
+        if (existence >= 0) {
+            sight.existence = finite(table, existence);
+        }
         sights.push_back(sight);
     }
     return sights;
+}
+
+std::vector<ParticleSet> readParticles(const std::string& file) {
+    CsvReader table(file, LastLine::may_be_cut);
+    const int t = table.column("t"), number = table.column("particle"), weight = table.column("weight");
+    const int x = table.column("x"), y = table.column("y"), theta = table.column("theta");
+    std::vector<ParticleSet> sets;
+    while (table.next()) {
+        const Stamp stamp = table.stamp(t);
+        if (sets.empty() || sets.back().stamp != stamp) {
+            sets.push_back({stamp, {}});
+        }
+        sets.back().rows.push_back({table.integer(number),
+                                    finite(table, weight),
+                                    {finite(table, x), finite(table, y), finite(table, theta)}});
+    }
+    return sets;
 }
 
 CorrelationCells readCorrelation(const std::string& file) {
@@ -190,6 +211,12 @@ RunFolder readRunFolder(const std::string& folder, const std::string& truth_fold
     }
     if (there("landmarks_history.csv")) {
         run.sights = readSights(folder + "/landmarks_history.csv");
+    }
+    if (there("tentative.csv")) {
+        run.tentative = readSights(folder + "/tentative.csv");
+    }
+    if (there("particles.csv")) {
+        run.particles = readParticles(folder + "/particles.csv");
     }
     if (there("correlation.bin")) {
         run.correlation = readCorrelation(folder + "/correlation.bin");

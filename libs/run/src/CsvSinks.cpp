@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "slamot/core/particles/ParticleWeights.h"
 #include "slamot/rawlog/CsvTable.h"
 
 namespace slamot::run {
@@ -16,6 +17,12 @@ std::string row(const Fields&... fields) {
 
 std::int64_t idOf(SourceId id) {
     return id.valid() ? id.value : -1;
+}
+
+/// `t,id,x,y,c_xx,c_xy,c_yy,existence,moving,source_id`
+std::string landmarkRow(const Step& step, const LandmarkEstimate& l) {
+    return row(step.estimate.stamp, l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0), l.covariance(0, 1),
+               l.covariance(1, 1), l.existence, l.moving, idOf(l.source));
 }
 
 }  // namespace
@@ -91,9 +98,33 @@ LandmarksHistorySink::LandmarksHistorySink(const std::string& folder)
 }
 
 void LandmarksHistorySink::step(const Step& step) {
-    for (const LandmarkEstimate& l : step.touched)
-        csv_.line(row(step.estimate.stamp, l.id.value, l.mean.x(), l.mean.y(), l.covariance(0, 0),
-                      l.covariance(0, 1), l.covariance(1, 1), l.existence, l.moving, idOf(l.source)));
+    for (const LandmarkEstimate& l : step.touched) csv_.line(landmarkRow(step, l));
+}
+
+TentativeSink::TentativeSink(const std::string& folder, double interval)
+    : clock_(interval), csv_(folder + "/tentative.csv") {
+    csv_.line("t,id,x,y,c_xx,c_xy,c_yy,existence,moving,source_id");
+}
+
+void TentativeSink::step(const Step& step) {
+    if (clock_.due(step))
+        for (const LandmarkEstimate& l : step.estimator->tentative()) csv_.line(landmarkRow(step, l));
+}
+
+ParticlesSink::ParticlesSink(const std::string& folder, double interval, int most)
+    : clock_(interval), most_(most), csv_(folder + "/particles.csv") {
+    csv_.line("t,particle,weight,x,y,theta");
+}
+
+void ParticlesSink::step(const Step& step) {
+    if (!clock_.due(step)) return;
+    const std::vector<ParticleEstimate> particles = step.estimator->particles();
+    std::vector<double> weights;
+    for (const ParticleEstimate& particle : particles) weights.push_back(particle.weight);
+    for (const auto& [index, weight] : thinned(weights, most_)) {
+        const Pose2& pose = particles[index].pose.mean;
+        csv_.line(row(step.estimate.stamp, static_cast<std::int64_t>(index), weight, pose.x, pose.y, pose.theta));
+    }
 }
 
 InnovationsSink::InnovationsSink(const std::string& folder) : csv_(folder + "/innovations.csv") {

@@ -19,7 +19,7 @@ constexpr const char* output_names[] = {
     "landmarks_history.csv", "innovations.csv", "steps.csv",       "correlation.bin",
     "map.landmarks.gz",      "scene.3Dscene",   "estimate.rawlog", "estimate.rawlog.sha256",
     "summary.json",          "overview.svg",    "overview.png",    "overview.vg.json",
-    "report.html"};
+    "report.html",           "tentative.csv",   "particles.csv"};
 
 /// Names alone do not tell an estimate from somebody's data, so a folder is only written to when it is empty
 /// or the output of an earlier run, finished or broken off.
@@ -63,6 +63,9 @@ std::vector<std::unique_ptr<Sink>> fileSinks(const RunConfig& config, const std:
     sinks.push_back(std::make_unique<LandmarksSink>(folder));
     if (output.innovations) sinks.push_back(std::make_unique<InnovationsSink>(folder));
     if (output.landmarks_history) sinks.push_back(std::make_unique<LandmarksHistorySink>(folder));
+    if (output.tentative) sinks.push_back(std::make_unique<TentativeSink>(folder, output.interval));
+    if (output.particles)
+        sinks.push_back(std::make_unique<ParticlesSink>(folder, output.interval, output.most_particles));
     if (output.steps) sinks.push_back(std::make_unique<StepsSink>(folder));
     if (output.correlation) sinks.push_back(std::make_unique<CorrelationSink>(folder));
     if (output.map) sinks.push_back(std::make_unique<LandmarkMapSink>(folder));

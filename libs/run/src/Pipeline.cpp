@@ -325,6 +325,7 @@ void Pipeline::closeStep() {
     for (const Innovation& innovation : step_.report.innovations)
         if (innovation.landmark.valid()) touched.push_back(innovation.landmark);
     if (!touched.empty()) step_.touched = estimator_.landmarks(touched);
+    step_.estimator = &estimator_;
     counts_.times += step_.times;
     for (Sink* sink : sinks_) sink->step(step_);
     last_estimate_ = std::move(step_.estimate);

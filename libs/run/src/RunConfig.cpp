@@ -176,6 +176,10 @@ std::vector<ParameterTable> describe(RunConfig& c) {
               "Shortest time between rows of trajectory and tracks; stamps with detections always get a row.")
         .flag("innovations", c.output.innovations, "innovations.csv.")
         .flag("landmarks_history", c.output.landmarks_history, "landmarks_history.csv.")
+        .flag("tentative", c.output.tentative, "tentative.csv: what may turn out to be a landmark, as it goes.")
+        .flag("particles", c.output.particles, "particles.csv, of estimators that have particles.")
+        .integer("most_particles", c.output.most_particles, Interval::between(1, 100000),
+                 "Of more particles at a stamp, so many are written, chosen by weight.")
         .flag("steps", c.output.steps, "steps.csv.")
         .flag("correlation", c.output.correlation, "correlation.bin.")
         .flag("map", c.output.map, "map.landmarks.gz.")

@@ -50,6 +50,31 @@ TEST(ObjectLifeTest, WhatCameThriceAndIsSeenNoMoreIsLetGo) {
     EXPECT_LE(robot.filter.state().dimension(), 3 + 6 * 3) << "robot and remembered poses";
 }
 
+// What may be a landmark stands where the robot's pose puts it, and is as uncertain as both together.
+TEST(ObjectLifeTest, TentativeLandmarksAreToldInTheWorld) {
+    JointFilterParameters p;
+    p.consistency = Consistency::classic;
+    JointFilter filter(p, {});
+    const Pose2 robot{1, 2, pi / 2};
+    filter.start({}, {robot, Vector3(0.1, 0.2, 0.02).cwiseAbs2().asDiagonal()});
+    DetectionSet set = test::detectionsAt(0, {test::seen(robot, {1, 6}, ObjectKind::landmark, -1),
+                                              test::seen(robot, {4, 2}, ObjectKind::mover, -1),
+                                              test::seen(robot, {-2, 4}, ObjectKind::unknown, -1)});
+    std::get<RangeBearingSet>(set.measurements).sensors[0].max_range = 20;
+    filter.update(set);
+    const std::vector<LandmarkEstimate> candidates = filter.tentative();
+    ASSERT_EQ(candidates.size(), 2u);
+    EXPECT_TRUE(test::near(candidates[0].mean, Vector2(1, 6), 1e-12));
+    EXPECT_TRUE(test::near(candidates[1].mean, Vector2(-2, 4), 1e-12));
+    // 4 m ahead: range along y, bearing and heading along x.
+    const Matrix2 P = Vector2(0.01 + 16 * (0.0004 + 0.0004), 0.04 + 0.01).asDiagonal();
+    EXPECT_TRUE(test::near(candidates[0].covariance, P, 1e-12));
+    EXPECT_NEAR(candidates[0].existence, 0.1 / 1.1, 1e-12);
+    EXPECT_EQ(candidates[0].moving, 0);
+    EXPECT_NEAR(candidates[1].moving, p.life.change.moving_probability, 1e-12);
+    EXPECT_EQ(filter.landmarkCount(), 0);
+}
+
 TEST(ObjectLifeTest, ALandmarkOutlivesAnOcclusion) {
     const auto run = [](double hidden_every) {
         JointFilterParameters parameters;

@@ -225,6 +225,20 @@ std::vector<LandmarkEstimate> JointFilter::landmarks(const std::vector<LandmarkI
     return out;
 }
 
+std::vector<LandmarkEstimate> JointFilter::tentative() const {
+    std::vector<LandmarkEstimate> out;
+    const PoseGaussian pose = robot();
+    for (const TentativeObject& object : life_.tentative()) {
+        const double moving = object.track.movingProbability();
+        if (moving == 1) continue;
+        const NewBlock place = inWorld(object.track.asLandmark(), pose.mean.vector());
+        const Matrix2 covariance = place.G * pose.covariance * place.G.transpose() + place.own;
+        out.push_back({{}, {}, place.mean, covariance, object.seen, object.first_seen, object.last_seen,
+                       object.existence.probability(), moving});
+    }
+    return out;
+}
+
 JointCovariance JointFilter::jointCovariance() const {
     JointCovariance out;
     std::vector<BlockId> blocks{robot_block};

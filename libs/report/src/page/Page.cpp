@@ -115,6 +115,13 @@ std::string keyDrawing(const ReplayKey& key) {
         case Symbol::disc:
             shape = R"(<circle cx="8" cy="4" r="4" fill="{0}" data-colour="{0}"/>)";
             break;
+        case Symbol::frame:
+            shape = R"(<rect x="5.5" y="1.5" width="5" height="5" fill="none" stroke="{0}" data-colour="{0}"/>)";
+            break;
+        case Symbol::dots:
+            shape = R"(<path d="M3 3h.1M8 5.5h.1M12 2h.1M10.5 6h.1M6 1.5h.1" stroke-width="3" stroke-linecap="round" )"
+                    R"(stroke="{0}" data-colour="{0}"/>)";
+            break;
     }
     return fmt::format(fmt::runtime(shape), escaped(key.colour));
 }

@@ -35,7 +35,8 @@ ReplayView replayOf(const RunFolder& run) {
     data["colours"] = {{"robot", colour::blue},
                        {"landmark", colour::black},
                        {"trueLandmark", colour::grey},
-                       {"sight", colour::sky}};
+                       {"sight", colour::sky},
+                       {"particle", colour::orange}};
     data["times"] = json::array();
     for (const Stamp stamp : scene.stamps()) {
         data["times"].push_back(rounded(run.seconds(stamp), 3));

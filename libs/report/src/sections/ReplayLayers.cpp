@@ -78,6 +78,14 @@ json landmarks(const ReplayScene& scene) {
     return scene.landmarks();
 }
 
+json tentative(const ReplayScene& scene) {
+    return scene.tentative();
+}
+
+json particles(const ReplayScene& scene) {
+    return scene.particles();
+}
+
 json tracks(const ReplayScene& scene) {
     return scene.tracks();
 }
@@ -112,7 +120,17 @@ Keys sightKeys(const ReplayScene& scene) {
 
 Keys landmarkKeys(const ReplayScene& scene) {
     const bool any = !scene.run.run.landmarks.empty() || !scene.run.sights.empty();
-    return any ? Keys{{Symbol::square, "landmark", colour::black}} : Keys();
+    const bool doubt = scene.landmarks().contains("existence");
+    const char* words = doubt ? "landmark, paler the less its existence is certain" : "landmark";
+    return any ? Keys{{Symbol::square, words, colour::black}} : Keys();
+}
+
+Keys tentativeKeys(const ReplayScene&) {
+    return {{Symbol::frame, "may be a landmark", colour::black}};
+}
+
+Keys particleKeys(const ReplayScene&) {
+    return {{Symbol::dots, "particle, paler the less it weighs", colour::orange}};
 }
 
 Keys trackKeys(const ReplayScene& scene) {
@@ -134,7 +152,10 @@ const std::vector<ReplayLayer>& replayLayers() {
     static const std::vector<ReplayLayer> layers = {{"truth", "truth", true, truth, truthKeys},
                                                     {"sight", "field of view and what is seen", true, sight, sightKeys},
                                                     {"landmarks", "", true, landmarks, landmarkKeys},
+                                                    {"tentative", "what may be a landmark", true, tentative,
+                                                     tentativeKeys},
                                                     {"tracks", "", true, tracks, trackKeys},
+                                                    {"particles", "particles", true, particles, particleKeys},
                                                     {"robot", "", true, robot, robotKeys},
                                                     {"ellipses", "3σ ellipses", true, nullptr},
                                                     {"follow", "follow the robot", false, nullptr}};

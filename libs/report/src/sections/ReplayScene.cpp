@@ -15,8 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_frames = 2000, most_places = 30000, most_sights = 60000;
-constexpr double map_pixels = 900;  // about the width of the picture
+constexpr std::size_t most_frames = 2000, most_sights = 60000;
+constexpr double map_pixels = 900;        // about the width of the picture
+constexpr double sure_existence = 0.995;  // is drawn like 1
 
 /// Rows of the trajectory that become frames: the last one in each of equal spans of time.
 std::vector<std::size_t> framesOf(const RunFolder& run) {
@@ -55,6 +56,8 @@ ReplayScene::ReplayScene(const RunFolder& of_run) : run(of_run), frames_(framesO
     makeLandmarks();
     makeTracks();
     makeSeen();
+    makeTentative();
+    makeParticles();
 }
 
 /// The map with room at its rim.
@@ -129,7 +132,7 @@ void ReplayScene::makeLandmarks() {
     }
     if (places.empty()) {  // no history: the map of the end, from when each was first seen
         for (const LandmarkEstimate& l : run.run.landmarks) {
-            places.push_back({l.first_seen, l.id, l.source, l.mean, l.covariance});
+            places.push_back({l.first_seen, l.id, l.source, l.mean, l.covariance, l.existence});
         }
         std::sort(places.begin(), places.end(),
                   [](const LandmarkSight& a, const LandmarkSight& b) { return a.stamp < b.stamp; });
@@ -142,6 +145,8 @@ void ReplayScene::makeLandmarks() {
     for (std::size_t i = 0; i < places.size(); ++i) {
         last[places[i].id] = i;
     }
+    const bool doubt = std::any_of(places.begin(), places.end(),
+                                   [](const LandmarkSight& place) { return place.existence < sure_existence; });
     ReplayColumns columns(digits_);
     json result = {{"frame", json::array()}, {"index", json::array()}, {"x", json::array()},
                    {"y", json::array()},     {"a", json::array()},     {"b", json::array()},
@@ -154,11 +159,17 @@ void ReplayScene::makeLandmarks() {
         columns.whole("index", static_cast<std::int64_t>(index));
         columns.point(place.mean);
         columns.ellipse(place.covariance);
+        if (doubt) {
+            columns.whole("existence", std::llround(100 * place.existence));
+        }
         if (run.map_known && last[place.id] == i && kept.count(place.id) == 0) {
             // Merged or removed since: nothing says when, so it goes after it was last seen.
             columns.whole("frame", frame + 1);
             columns.whole("index", static_cast<std::int64_t>(index));
             columns.unknown({"x", "y", "a", "b", "angle"});
+            if (doubt) {
+                columns.unknown({"existence"});
+            }
         }
     }
     result.update(columns.take());
@@ -212,7 +223,8 @@ std::vector<LandmarkSight> visibleChanges(const std::vector<LandmarkSight>& sigh
         const LandmarkSight*& before = kept[sight.id];
         const bool seen = !before || last[sight.id] == i || (sight.mean - before->mean).norm() > pixel ||
                           std::abs(3 * std::sqrt(sight.covariance.trace()) -
-                                   3 * std::sqrt(before->covariance.trace())) > pixel;
+                                   3 * std::sqrt(before->covariance.trace())) > pixel ||
+                          std::abs(sight.existence - before->existence) > visible_existence;
         if (seen) {
             before = &sight;
             changes.push_back(sight);

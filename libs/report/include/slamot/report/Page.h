@@ -57,7 +57,7 @@ struct ReplayChoice {
 
 /// What one of the things in the replay looks like, for the list below it.
 struct ReplayKey {
-    enum class Symbol { arrow, square, cross, wide_line, line, disc };
+    enum class Symbol { arrow, square, cross, wide_line, line, disc, frame, dots };
     Symbol symbol;
     std::string words;
     std::string colour;  ///< of the light theme

@@ -20,13 +20,25 @@ struct StepRow {
     double predict_ms = 0, detect_ms = 0, update_ms = 0;
 };
 
-/// A row of landmarks_history.csv: a landmark after an update that saw it.
+/// A row of landmarks_history.csv: a landmark after an update that saw it. Or one of tentative.csv: what may be one.
 struct LandmarkSight {
     Stamp stamp;
     LandmarkId id;
     SourceId source;
     Vector2 mean = Vector2::Zero();
     Matrix2 covariance = Matrix2::Zero();
+    double existence = 1.0;
+};
+
+/// The rows of particles.csv at one stamp.
+struct ParticleSet {
+    struct Row {
+        std::int64_t number = 0;  ///< in the filter
+        double weight = 0;        ///< they sum to 1
+        Pose2 pose;
+    };
+    Stamp stamp;
+    std::vector<Row> rows;
 };
 
 /// correlation.bin
@@ -44,6 +56,8 @@ struct RunFolder {
     eval::RunRecord run;
     bool map_known = false;  ///< landmarks.csv is the final map: what is not in it has left
     std::vector<LandmarkSight> sights;
+    std::vector<LandmarkSight> tentative;  ///< all there were at each stamp of the trajectory
+    std::vector<ParticleSet> particles;    ///< by stamp, rising
     std::vector<StepRow> steps;
     std::optional<CorrelationCells> correlation;
     std::optional<Truth> truth;

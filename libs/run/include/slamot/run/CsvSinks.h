@@ -64,6 +64,31 @@ class LandmarksHistorySink : public Sink {
     PartFile csv_;
 };
 
+/// tentative.csv: what may turn out to be a landmark, at the rows of the trajectory
+class TentativeSink : public Sink {
+  public:
+    TentativeSink(const std::string& folder, double interval);
+    void step(const Step& step) override;
+    void end(const RunEnd&) override { csv_.close(); }
+
+  private:
+    RowClock clock_;
+    PartFile csv_;
+};
+
+/// particles.csv: at the rows of the trajectory, at most so many at each
+class ParticlesSink : public Sink {
+  public:
+    ParticlesSink(const std::string& folder, double interval, int most);
+    void step(const Step& step) override;
+    void end(const RunEnd&) override { csv_.close(); }
+
+  private:
+    RowClock clock_;
+    int most_;
+    PartFile csv_;
+};
+
 /// innovations.csv
 class InnovationsSink : public Sink {
   public:

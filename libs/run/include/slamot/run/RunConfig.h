@@ -47,6 +47,8 @@ struct StartParameters {
 struct OutputParameters {
     double interval = 0;  ///< [s] between rows of trajectory and tracks; stamps with detections always get one
     bool innovations = true, landmarks_history = true, steps = true, correlation = true;
+    bool tentative = false, particles = false;
+    int most_particles = 200;  ///< at a stamp
     bool map = true, scene = true, rawlog = true, figure = true, report = true;
 };
 

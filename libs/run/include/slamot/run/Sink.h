@@ -44,6 +44,8 @@ struct Step {
     /// The landmarks named in the report, after the update.
     std::vector<LandmarkEstimate> touched;
     StageTimes times;
+    /// For what is expensive and only some sinks want; at this step, so not to be kept.
+    const Estimator* estimator = nullptr;
 };
 
 /// The end of a run.

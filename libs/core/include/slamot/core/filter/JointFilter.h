@@ -81,6 +81,8 @@ class JointFilter {
     std::vector<LandmarkEstimate> landmarks() const;
     std::vector<LandmarkEstimate> landmarks(const std::vector<LandmarkId>& ids) const;
     std::int64_t landmarkCount() const { return static_cast<std::int64_t>(objects_.landmarks().size()); }
+    /// Landmarks that are not in the state yet, and what may be one; without ids.
+    std::vector<LandmarkEstimate> tentative() const;
     JointCovariance jointCovariance() const;
     /// Empty for a filter of one target model.
     std::vector<std::string> modeNames() const;

@@ -52,6 +52,9 @@ class ObjectLife {
     void follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch, Stamp now,
                 std::vector<Innovation>& innovations);
 
+    /// Beside the joint state, in the robot's frame.
+    const std::vector<TentativeObject>& tentative() const { return tentative_.objects(); }
+
     /// A track without identity has ended: it may come back.
     void lost(const ModalState& belief, const TrackRecord& track, Stamp now);
 
