@@ -19,9 +19,9 @@ constexpr double least_pair = 1e-8;
 constexpr double least_clutter = 1e-6;
 
 /// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
-double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, double unexplained) {
+double logRatio(const BernoulliMap::Work::Near& near, const Candidate& pair, double unexplained) {
     const double seen = near.detection * near.existence.visibility();
-    return std::log(seen / (unexplained * (1 - seen))) + innovation.logLikelihood();
+    return std::log(seen / (unexplained * (1 - seen))) + pair.log_likelihood;
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& 
             if (innovation.nis > settings.gate || !(near.existence.visibility() > 0)) continue;
             work.candidates.push_back(
                 {static_cast<int>(s), static_cast<int>(n), innovation.nis, innovation.logLikelihood()});
-            work.log_ratios.push_back(logRatio(near, innovation, work.unexplained[s]));
+            work.log_ratios.push_back(logRatio(near, work.candidates.back(), work.unexplained[s]));
         }
     }
 }
@@ -106,7 +106,7 @@ void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, cons
         const PointInnovation innovation(near.sight, sight.z, sight.R);
         pair.nis = innovation.nis;
         pair.log_likelihood = innovation.logLikelihood();
-        work.log_ratios[c] = logRatio(near, innovation, work.unexplained[static_cast<std::size_t>(pair.detection)]);
+        work.log_ratios[c] = logRatio(near, pair, work.unexplained[static_cast<std::size_t>(pair.detection)]);
     }
 }
 

@@ -64,7 +64,7 @@ double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, cons
                              const AssociationMarginals& marginals, int older, int younger, Work& work) const {
     const Work::Near& a = work.near[static_cast<std::size_t>(older)];
     const Work::Near& b = work.near[static_cast<std::size_t>(younger)];
-    const Pose2& sensor = scan.views[static_cast<std::size_t>(work.view)].sensor.pose;
+    const SensorPlace sensor = placeOf(pose, scan.views[static_cast<std::size_t>(work.view)].sensor.pose);
     std::optional<PointSight> both;
     double theirs = 0;
     bool shared = false;
@@ -89,9 +89,9 @@ double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, cons
         }
         if (weights.first + weights.second == 0) continue;
         shared = shared || fits == 2;
-        if (!both) both = sightOf(fused(a.point, b.point), pose, sensor, GaussianTransform::linear);
+        if (!both) both = sightOf(fused(a.point, b.point), sensor, GaussianTransform::linear);
         weights.one = std::max(a.detection, b.detection) *
-                      std::exp(PointInnovation(*both, sight.z, sight.R).log_likelihood);
+                      std::exp(PointInnovation(*both, sight.z, sight.R).logLikelihood());
         const double none = std::max(marginals.none[static_cast<std::size_t>(s)], 1e-12);
         const double else_ = work.unexplained[static_cast<std::size_t>(s)] * (1 + of_others / none);
         work.rival_sights.push_back({weights.first / else_, weights.second / else_, weights.one / else_});

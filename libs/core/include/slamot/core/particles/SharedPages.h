@@ -100,7 +100,7 @@ class SharedPages {
     }
 
     /// Takes out the items at `places`, in any order. Pages that get sparse are joined with their neighbours.
-    void remove(std::vector<Place>& places) {
+    void remove(std::vector<Place> places) {
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
         for (std::size_t k = places.size(); k-- > 0;) removeOne(places[k]);
