@@ -13,27 +13,25 @@ namespace {
 
 using Place = BernoulliMap::Place;
 
-bool operator==(Place a, Place b) {
-    return a.page == b.page && a.item == b.item;
-}
-
 /// Pairs less likely than this are left out of the mixture: they would move nothing.
 constexpr double least_pair = 1e-8;
 
-/// Below this, what would be new is not kept.
-constexpr double least_existence = 1e-6;
 constexpr double least_clutter = 1e-6;
 
 /// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
-double logRatio(const BernoulliMap::Work::Near& near, const PointInnovation& innovation, double unexplained) {
+double logRatio(const BernoulliMap::Work::Near& near, const Candidate& pair, double unexplained) {
     const double seen = near.detection * near.existence.visibility();
-    return std::log(seen / (unexplained * (1 - seen))) + innovation.logLikelihood();
+    return std::log(seen / (unexplained * (1 - seen))) + pair.log_likelihood;
 }
 
 }  // namespace
 
 BernoulliMap::Settings::Settings(const BernoulliMapParameters& p, GaussianTransform t)
-    : parameters(p), transform(t), gate(chiSquareQuantile(p.gate_probability, 2)) {}
+    : parameters(p),
+      transform(t),
+      gate(chiSquareQuantile(p.gate_probability, 2)),
+      rival_gate(chiSquareQuantile(0.999, 2)),
+      merge_odds(std::log(p.merge_probability) - std::log1p(-p.merge_probability)) {}
 
 // --- which detection may be of what
 // ---------------------------------------------------------------------------------------------------
@@ -93,7 +91,7 @@ void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& 
             if (innovation.nis > settings.gate || !(near.existence.visibility() > 0)) continue;
             work.candidates.push_back(
                 {static_cast<int>(s), static_cast<int>(n), innovation.nis, innovation.logLikelihood()});
-            work.log_ratios.push_back(logRatio(near, innovation, work.unexplained[s]));
+            work.log_ratios.push_back(logRatio(near, work.candidates.back(), work.unexplained[s]));
         }
     }
 }
@@ -108,7 +106,7 @@ void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, cons
         const PointInnovation innovation(near.sight, sight.z, sight.R);
         pair.nis = innovation.nis;
         pair.log_likelihood = innovation.logLikelihood();
-        work.log_ratios[c] = logRatio(near, innovation, work.unexplained[static_cast<std::size_t>(pair.detection)]);
+        work.log_ratios[c] = logRatio(near, pair, work.unexplained[static_cast<std::size_t>(pair.detection)]);
     }
 }
 
@@ -176,10 +174,11 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
         for (std::size_t s = 0; s < scan.sights.size(); ++s) {
             const ScanSight& sight = scan.sights[s];
             if (sight.view != view) continue;
-            const bool starts =
-                sight.named() ? !sight.known_as.valid() : none[s] > least_existence;
+            // Less than what is let go is not started.
+            const bool starts = sight.named() ? !sight.known_as.valid()
+                                              : none[s] >= settings.parameters.life.remove_probability;
             if (!starts) continue;
-            start(settings, pose, scan, sight, sight.named() ? 1 : none[s]);
+            start(settings, pose, scan, sight, sight.named() ? 1 : none[s] * work.fresh[s] / work.unexplained[s]);
             if (records[s].landmark.valid()) continue;
             records[s].landmark = sight.birth;
             records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
@@ -232,7 +231,7 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
         const ScanSight& sight = scan.sights[s];
         if (sight.view != view || sight.named()) continue;
         log_likelihood += std::log(work.unexplained[s]);
-        none[s] = marginals.none[s] * work.fresh[s] / work.unexplained[s];
+        none[s] = marginals.none[s];
     }
     const StandingSensor sensor(at, scan.views[static_cast<std::size_t>(view)]);
     const double miss = 1 - settings.parameters.life.detection_probability;
@@ -255,11 +254,15 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
             records[s].outcome = isConfirmed(settings, feature) ? Outcome::updated : Outcome::tentative;
     }
     for (std::size_t n = 0; n < work.near.size(); ++n)
-        take(settings, scan.now, marginals.missed[n], n, work);
+        take(scan.now, marginals.missed[n], n, work);
+    findRivals(settings, problem, work);
+    weighRivals(settings, pose, scan, marginals, work);
+    for (const Work::Near& near : work.near)
+        if (features_.at(near.place).existence.lost(settings.parameters.life)) work.lost.push_back(near.place);
     return log_likelihood;
 }
 
-void BernoulliMap::take(const Settings& settings, Stamp now, double missed, std::size_t n, Work& work) {
+void BernoulliMap::take(Stamp now, double missed, std::size_t n, const Work& work) {
     const Work::Near& near = work.near[n];
     BernoulliFeature& feature = features_.write(near.place);
     feature.existence = near.existence;
@@ -268,15 +271,15 @@ void BernoulliMap::take(const Settings& settings, Stamp now, double missed, std:
     if (missed < 1 - 100 * least_pair) {
         const double seen = near.detection * near.existence.visibility();
         const double there = missed * (near.existence.probability() - seen) / (1 - seen);
-        if (there > 100 * least_pair) work.mixtures[n].add(there, near.point);
-        feature.point = work.mixtures[n].moments();
+        FeatureMixture mixture = work.mixtures[n];
+        if (there > 100 * least_pair) mixture.add(there, near.point);
+        feature.point = mixture.moments();
         features_.moved(near.place);
     }
     if (missed < 0.5) {
         ++feature.seen;
         feature.last_seen = now;
     }
-    if (feature.existence.lost(settings.parameters.life)) work.lost.push_back(near.place);
 }
 
 // --- what comes and goes
@@ -303,10 +306,6 @@ void BernoulliMap::letGo(const Settings& settings, Stamp now, Work& work) {
             secondsBetween(feature.last_seen, now) > settings.parameters.max_unseen)
             work.lost.push_back(place);
     });
-    std::sort(work.lost.begin(), work.lost.end(),
-              [](Place a, Place b) { return a.page != b.page ? a.page < b.page : a.item < b.item; });
-    work.lost.erase(std::unique(work.lost.begin(), work.lost.end(), [](Place a, Place b) { return a == b; }),
-                    work.lost.end());
     features_.remove(work.lost);
 }
 
@@ -326,6 +325,8 @@ std::vector<ParameterTable> describe(BernoulliMapParameters& p, const std::strin
     landmarks.real("density", p.density, "1/m^2", Interval::nonNegative(),
                    "Landmarks to be expected where no sensor has looked yet.");
     describe(p.life, "landmarks", landmarks);
+    landmarks.real("merge_probability", p.merge_probability, "-", Interval::openProbability(),
+                   "Of two landmarks being one, at which they are merged.");
     landmarks.real("max_unseen", p.max_unseen, "s", Interval::positiveOrInfinite(),
                    "A landmark that is not confirmed and not seen for longer is let go.");
     return {association, landmarks};

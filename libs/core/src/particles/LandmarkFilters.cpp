@@ -12,10 +12,6 @@ namespace {
 
 using Place = SharedPages<LandmarkFilter>::Place;
 
-bool operator==(Place a, Place b) {
-    return a.page == b.page && a.item == b.item;
-}
-
 /// [m] by which landmarks may lie off where they are looked for, beyond what a sensor reaches.
 constexpr double view_margin = 1.0;
 
@@ -277,12 +273,6 @@ void LandmarkFilters::letGo(const Settings& settings, Stamp now, Work& work) {
             secondsBetween(landmark.last_seen, now) > settings.parameters.max_unseen)
             work.lost.push_back(place);
     });
-    std::sort(work.lost.begin(), work.lost.end(), [](Place a, Place b) {
-        return a.page != b.page ? a.page < b.page : a.item < b.item;
-    });
-    work.lost.erase(std::unique(work.lost.begin(), work.lost.end(),
-                                [](Place a, Place b) { return a == b; }),
-                    work.lost.end());
     landmarks_.remove(work.lost);
 }
 

@@ -13,10 +13,13 @@
 #include "slamot/core/particles/MixedEstimate.h"
 #include "slamot/core/particles/ParticleScan.h"
 #include "slamot/core/particles/PointSight.h"
+#include "slamot/core/particles/RivalFeatures.h"
 #include "slamot/core/particles/SharedPages.h"
 #include "slamot/core/particles/UndetectedFeatures.h"
 
 namespace slamot {
+
+struct AssociationMarginals;
 
 struct BernoulliMapParameters {
     bool use_nameless = true;  ///< false: detections without identity are ignored
@@ -26,6 +29,7 @@ struct BernoulliMapParameters {
     int state_budget = 500;  ///< of exact sums over the pairings of a cluster
     double density = 0.005;  ///< [1/m^2] of features where no sensor has looked yet
     LifeParameters life;
+    double merge_probability = 0.99;  ///< of being one, at which two features are merged
     double max_unseen = 5;  ///< [s]; a feature that is not confirmed and not seen for longer is let go
 };
 
@@ -39,7 +43,9 @@ struct BernoulliFeature {
     Existence existence = Existence::certain();
     std::int64_t seen = 1;
     Stamp first_seen, last_seen;
-    Stamp looked;  ///< when its existence was judged last
+    Stamp looked;       ///< when its existence was judged last
+    LandmarkId rival;   ///< an older feature that may be the same one
+    double same = 0;    ///< log odds that it is, as far as scans tell
 
     double existenceProbability() const { return existence.probability(); }
 };
@@ -53,7 +59,8 @@ class BernoulliMap {
         Settings(const BernoulliMapParameters& parameters, GaussianTransform transform);
         BernoulliMapParameters parameters;
         GaussianTransform transform;
-        double gate;  ///< of the NIS
+        double gate, rival_gate;  ///< of the NIS
+        double merge_odds;        ///< logarithm
     };
     /// Room for one update, used again for the next particle.
     struct Work {
@@ -80,6 +87,7 @@ class BernoulliMap {
         std::vector<double> fresh, unexplained;
         std::vector<Pair> pairs;
         std::vector<FeatureMixture> mixtures;  ///< by near feature
+        std::vector<RivalSight> rival_sights;
         std::vector<Place> lost;
     };
 
@@ -122,7 +130,13 @@ class BernoulliMap {
                        std::vector<SightRecord>& records);
     double updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view, Work& work,
                           std::vector<SightRecord>& records, std::vector<double>& none);
-    void take(const Settings& settings, Stamp now, double missed, std::size_t near, Work& work);
+    void take(Stamp now, double missed, std::size_t near, const Work& work);
+    void findRivals(const Settings& settings, const AssociationProblem& problem, const Work& work);
+    void weighRivals(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                     const AssociationMarginals& marginals, Work& work);
+    double logSame(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                   const AssociationMarginals& marginals, int older, int younger, Work& work) const;
+    void merge(Place older, Place younger);
     void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
                double existence);
     void letGo(const Settings& settings, Stamp now, Work& work);

@@ -26,6 +26,8 @@ class SharedPages {
     /// Where an item is; valid until items are added or removed.
     struct Place {
         int page = 0, item = 0;
+        friend bool operator==(Place a, Place b) { return a.page == b.page && a.item == b.item; }
+        friend bool operator<(Place a, Place b) { return a.page != b.page ? a.page < b.page : a.item < b.item; }
     };
 
     /// Pages made from now on belong to `owner`, those made before to nobody.
@@ -97,8 +99,10 @@ class SharedPages {
         for (int i = 0; i < page.size; ++i) visit(Place{number, i}, page.items[static_cast<std::size_t>(i)]);
     }
 
-    /// Takes out the items at `places`, which ascend. Pages that get sparse are joined with their neighbours.
-    void remove(const std::vector<Place>& places) {
+    /// Takes out the items at `places`, in any order. Pages that get sparse are joined with their neighbours.
+    void remove(std::vector<Place> places) {
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
         for (std::size_t k = places.size(); k-- > 0;) removeOne(places[k]);
     }
 

@@ -1,0 +1,113 @@
+// Features of a Bernoulli map that may be one.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "slamot/core/association/AssociationMarginals.h"
+#include "slamot/core/particles/BernoulliMap.h"
+
+namespace slamot {
+namespace {
+
+/// A single scan does not say more than this: it is by far not the only thing that may be wrong then.
+constexpr double most_of_a_scan = 5;
+
+/// Part of a detection that must be theirs for a look to count.
+constexpr double least_seen = 0.5;
+
+}  // namespace
+
+void BernoulliMap::findRivals(const Settings& settings, const AssociationProblem& problem, const Work& work) {
+    const auto fits = [&](int c) { return problem.candidate(c).nis <= settings.rival_gate; };
+    for (int s = 0; s < problem.detections(); ++s) {
+        // Features are numbered as they came: the first that fits is the oldest.
+        int oldest = problem.first(s);
+        while (oldest < problem.first(s + 1) && !fits(oldest)) ++oldest;
+        for (int c = oldest + 1; c < problem.first(s + 1); ++c) {
+            if (!fits(c)) continue;
+            const auto placeOf = [&](int k) {
+                return work.near[static_cast<std::size_t>(problem.candidate(k).object)].place;
+            };
+            const BernoulliFeature &older = features_.at(placeOf(oldest)), &younger = features_.at(placeOf(c));
+            if (younger.source.valid() || (younger.rival.valid() && find(younger.rival))) continue;
+            BernoulliFeature& written = features_.write(placeOf(c));
+            written.rival = older.id;
+            written.same = 0;
+        }
+    }
+}
+
+void BernoulliMap::weighRivals(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                               const AssociationMarginals& marginals, Work& work) {
+    for (std::size_t n = 0; n < work.near.size(); ++n) {
+        const LandmarkId rival = features_.at(work.near[n].place).rival;
+        if (!rival.valid()) continue;
+        const auto older = std::find_if(work.near.begin(), work.near.end(), [&](const Work::Near& near) {
+            return features_.at(near.place).id == rival;
+        });
+        const auto isGone = [&](Place place) {
+            return std::any_of(work.lost.begin(), work.lost.end(), [&](Place gone) { return gone == place; });
+        };
+        if (older == work.near.end() || isGone(older->place)) continue;
+        const double look = logSame(settings, pose, scan, marginals, static_cast<int>(older - work.near.begin()),
+                                    static_cast<int>(n), work);
+        if (look == 0) continue;
+        BernoulliFeature& younger = features_.write(work.near[n].place);
+        younger.same += std::clamp(look, -most_of_a_scan, most_of_a_scan);
+        if (younger.same < settings.merge_odds) continue;
+        merge(older->place, work.near[n].place);
+        work.lost.push_back(work.near[n].place);
+    }
+}
+
+double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                             const AssociationMarginals& marginals, int older, int younger, Work& work) const {
+    const Work::Near& a = work.near[static_cast<std::size_t>(older)];
+    const Work::Near& b = work.near[static_cast<std::size_t>(younger)];
+    const SensorPlace sensor = placeOf(pose, scan.views[static_cast<std::size_t>(work.view)].sensor.pose);
+    std::optional<PointSight> both;
+    double theirs = 0;
+    bool shared = false;
+    work.rival_sights.clear();
+    for (std::size_t c = 0; c < work.candidates.size();) {
+        const int s = work.candidates[c].detection;
+        const ScanSight& sight = scan.sights[static_cast<std::size_t>(s)];
+        RivalSight weights{0, 0, 0};
+        double of_others = 0;
+        int fits = 0;
+        for (; c < work.candidates.size() && work.candidates[c].detection == s; ++c) {
+            const Candidate& pair = work.candidates[c];
+            if (pair.object != older && pair.object != younger) {
+                of_others += marginals.pair[c];
+                continue;
+            }
+            theirs += marginals.pair[c];
+            fits += pair.nis <= settings.rival_gate;
+            const Work::Near& near = pair.object == older ? a : b;
+            (pair.object == older ? weights.first : weights.second) =
+                near.detection * std::exp(pair.log_likelihood);
+        }
+        if (weights.first + weights.second == 0) continue;
+        shared = shared || fits == 2;
+        if (!both) both = sightOf(fused(a.point, b.point), sensor, GaussianTransform::linear);
+        weights.one = std::max(a.detection, b.detection) *
+                      std::exp(PointInnovation(*both, sight.z, sight.R).logLikelihood());
+        const double none = std::max(marginals.none[static_cast<std::size_t>(s)], 1e-12);
+        const double else_ = work.unexplained[static_cast<std::size_t>(s)] * (1 + of_others / none);
+        work.rival_sights.push_back({weights.first / else_, weights.second / else_, weights.one / else_});
+    }
+    if (!shared || theirs < least_seen) return 0;
+    return logOneAgainstTwo(a.detection, b.detection, work.rival_sights);
+}
+
+void BernoulliMap::merge(Place older, Place younger) {
+    const BernoulliFeature& gone = features_.at(younger);
+    BernoulliFeature& kept = features_.write(older);
+    kept.point = fused(kept.point, gone.point);
+    features_.moved(older);
+    if (gone.existence.probability() > kept.existence.probability()) kept.existence = gone.existence;
+    kept.seen += gone.seen;
+    kept.last_seen = std::max(kept.last_seen, gone.last_seen);
+}
+
+}  // namespace slamot
