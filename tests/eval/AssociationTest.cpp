@@ -7,7 +7,7 @@
 #include "slamot/eval/Landmarks.h"
 
 namespace slamot::eval {
-namespace {
+namespace association_test {
 
 /// Detections one by one, each at its own stamp.
 class Log {
@@ -256,5 +256,5 @@ TEST(MapCardinality, AgainstAllAndAgainstSeen) {
     EXPECT_EQ(mapCardinality(run, {}).whyAbsent(), "truth has no landmarks");
 }
 
-}  // namespace
+}  // namespace association_test
 }  // namespace slamot::eval

@@ -6,7 +6,7 @@
 #include "slamot/eval/Consistency.h"
 
 namespace slamot::eval {
-namespace {
+namespace consistency_test {
 
 TEST(Nees, ByHand) {
     // P = [4 2; 2 2], P^-1 = 1/4 [2 -2; -2 4], e = (2, 1): (8 - 8 + 4) / 4 = 1.
@@ -50,8 +50,9 @@ TEST(Nees, UnitsDoNotWeigh) {
 }
 
 TEST(Nees, ADirectionOfRoundOffDoesNotCount) {
-    // Along (1, 1) / sqrt(2) the variance is 2 - 1e-11, along (1, -1) / sqrt(2) it is 1e-11: 5e-12 of the other, less
-    // than the 1e-9 that estimators are held to. Only the first counts: e = (1e-3, -1e-3) has nothing along it.
+    // Along (1, 1) / sqrt(2) the variance is 2 - 1e-11, along (1, -1) / sqrt(2) it is 1e-11: 5e-12 of the
+    // other, less than the 1e-9 that estimators are held to. Only the first counts: e = (1e-3, -1e-3) has
+    // nothing along it.
     Matrix2 P;
     P << 1, 1 - 1e-11, 1 - 1e-11, 1;
     const SquaredError n = nees(Vector2(1e-3, -1e-3), P);
@@ -149,5 +150,5 @@ TEST(ConsistencyOverRuns, RightCovariancesAreInside) {
     EXPECT_NEAR(c->average, 3, 0.11);
 }
 
-}  // namespace
+}  // namespace consistency_test
 }  // namespace slamot::eval

@@ -5,7 +5,7 @@
 #include "slamot/eval/ErrorSummary.h"
 
 namespace slamot::eval {
-namespace {
+namespace error_summary_test {
 
 TEST(ErrorSummary, ByHand) {
     // |e| = 3, 4, 0, 1: rmse sqrt((9 + 16 + 0 + 1) / 4) = sqrt(6.5), mean 2, median (1 + 3) / 2 = 2.
@@ -27,5 +27,5 @@ TEST(ErrorSummary, NothingIsNotZero) {
     EXPECT_TRUE(std::isnan(s.final));
 }
 
-}  // namespace
+}  // namespace error_summary_test
 }  // namespace slamot::eval

@@ -5,7 +5,7 @@
 #include "slamot/eval/Landmarks.h"
 
 namespace slamot::eval {
-namespace {
+namespace landmarks_test {
 
 Truth threeLandmarks() {
     Truth truth;
@@ -69,5 +69,5 @@ TEST(Landmarks, SaysWhatIsMissing) {
     EXPECT_THAT(landmarkErrors(run, threeLandmarks(), {})->nees.whyAbsent(), testing::HasSubstr("not known"));
 }
 
-}  // namespace
+}  // namespace landmarks_test
 }  // namespace slamot::eval

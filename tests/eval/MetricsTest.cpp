@@ -8,7 +8,7 @@
 #include "slamot/eval/Metrics.h"
 
 namespace slamot::eval {
-namespace {
+namespace metrics_test {
 
 using testing::HasSubstr;
 
@@ -174,5 +174,5 @@ TEST(Options, DefaultsAreLegalAndRoundTrip) {
     EXPECT_EQ(options.alignment, Alignment::first_pose);
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace slamot::eval

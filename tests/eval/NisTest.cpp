@@ -6,7 +6,7 @@
 #include "slamot/eval/Nis.h"
 
 namespace slamot::eval {
-namespace {
+namespace nis_test {
 
 TEST(Nis, GroupsBySensorAndKindByHand) {
     const double none = std::nan("");
@@ -55,5 +55,5 @@ TEST(Nis, AbsentWithoutInnovations) {
     EXPECT_EQ(nisBySensor({}, 0.95).whyAbsent(), "the run has no innovations");
 }
 
-}  // namespace
+}  // namespace nis_test
 }  // namespace slamot::eval

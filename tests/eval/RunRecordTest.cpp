@@ -8,7 +8,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::eval {
-namespace {
+namespace run_record_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -183,5 +183,5 @@ TEST(ReadTum, RefusesWithASentence) {
     EXPECT_THAT(messageOf([] { readTum("/no/such/file.tum"); }), HasSubstr("cannot be opened"));
 }
 
-}  // namespace
+}  // namespace run_record_test
 }  // namespace slamot::eval

@@ -4,7 +4,7 @@
 #include "slamot/eval/SetDistance.h"
 
 namespace slamot::eval {
-namespace {
+namespace set_distance_test {
 
 TEST(SetDistance, ByHand) {
     // Estimates (0,1), (10,0), (50,0); truths (0,0), (13,0). Order 2, cutoff 5.
@@ -117,5 +117,5 @@ TEST(LandmarkSetDistance, OfTheFinalMap) {
     EXPECT_DOUBLE_EQ(d->ospa.total, std::sqrt((9.0 + 25.0) / 2));
 }
 
-}  // namespace
+}  // namespace set_distance_test
 }  // namespace slamot::eval

@@ -1,9 +1,9 @@
-#include "slamot/eval/TerminalText.h"
-
 #include <gtest/gtest.h>
 
+#include "slamot/eval/TerminalText.h"
+
 namespace slamot::eval {
-namespace {
+namespace terminal_text_test {
 
 TEST(TerminalText, WordsGoToTheNextLineAtTheTerminalsWidth) {
     const std::string forty(40, 'a'), thirty_nine(39, 'b');
@@ -17,5 +17,5 @@ TEST(TerminalText, AWordThatIsTooLongKeepsALineOfItsOwn) {
     EXPECT_EQ(wrapped("x " + word + " y"), "x\n    " + word + "\n    y\n");
 }
 
-}  // namespace
+}  // namespace terminal_text_test
 }  // namespace slamot::eval

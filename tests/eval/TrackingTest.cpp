@@ -6,7 +6,7 @@
 #include "slamot/eval/Tracking.h"
 
 namespace slamot::eval {
-namespace {
+namespace tracking_test {
 
 constexpr double gate = 1;
 
@@ -232,5 +232,5 @@ TEST(TrackingMetrics, OfARunWithoutTracks) {
     EXPECT_DOUBLE_EQ(m->trajectories.per_stamp, 5);
 }
 
-}  // namespace
+}  // namespace tracking_test
 }  // namespace slamot::eval

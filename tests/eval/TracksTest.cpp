@@ -6,7 +6,7 @@
 #include "slamot/eval/Tracks.h"
 
 namespace slamot::eval {
-namespace {
+namespace tracks_test {
 
 TEST(Tracks, GlobalAndRelativeErrorsByHand) {
     // The robot truly stands at the origin looking along x and believes to stand at (1, 0) looking along y.
@@ -108,5 +108,5 @@ TEST(Tracks, SaysWhatIsMissing) {
               "no track carries a source id; OSPA and GOSPA need none");
 }
 
-}  // namespace
+}  // namespace tracks_test
 }  // namespace slamot::eval

@@ -10,7 +10,7 @@
 #include "slamot/eval/TrajectoryDistance.h"
 
 namespace slamot::eval {
-namespace {
+namespace trajectory_distance_test {
 
 /// Positions on a line by stamp; NaN where the object is not there.
 using Line = std::vector<double>;
@@ -188,5 +188,5 @@ TEST(TrajectoryDistance, ACutSearchBoundsTheMetric) {
     EXPECT_GT(wider, 100);  // the cuts must have bitten for this to say anything
 }
 
-}  // namespace
+}  // namespace trajectory_distance_test
 }  // namespace slamot::eval

@@ -5,7 +5,7 @@
 #include "slamot/eval/Trajectory.h"
 
 namespace slamot::eval {
-namespace {
+namespace trajectory_test {
 
 using testing::HasSubstr;
 
@@ -156,8 +156,8 @@ TEST(Trajectory, RelativeErrorDoesNotSeeTheFrame) {
 }
 
 TEST(Trajectory, IsComparedAtThePointTruthIsMeasuredAt) {
-    // An antenna 2 m ahead and 1 m to the left of the robot at (10, 0), heading pi / 2: at (9, 2). Its x varies with
-    // the heading by -2 m per rad, its y by -1 m per rad.
+    // An antenna 2 m ahead and 1 m to the left of the robot at (10, 0), heading pi / 2: at (9, 2). Its x
+    // varies with the heading by -2 m per rad, its y by -1 m per rad.
     Truth truth;
     truth.point = {2, 1};
     truth.robot = {truePose(0, 9, 2, std::nan(""))};
@@ -173,5 +173,5 @@ TEST(Trajectory, IsComparedAtThePointTruthIsMeasuredAt) {
     EXPECT_EQ(e.covariance(2, 2), 0.25);
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace slamot::eval

@@ -8,7 +8,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::test {
-namespace {
+namespace broken_log_test {
 
 using ::testing::HasSubstr;
 
@@ -174,5 +174,5 @@ TEST_F(BrokenLog, AnAbsurdSizeIsCorruption) {
     EXPECT_FALSE(summary.end_message.empty());
 }
 
-}  // namespace
+}  // namespace broken_log_test
 }  // namespace slamot::test

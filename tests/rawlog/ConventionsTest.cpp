@@ -9,7 +9,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot {
-namespace {
+namespace conventions_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -126,5 +126,5 @@ TEST(Conventions, ActionsGiveIncrementAndCovariance) {
     EXPECT_FALSE(sampled.covariance);
 }
 
-}  // namespace
+}  // namespace conventions_test
 }  // namespace slamot

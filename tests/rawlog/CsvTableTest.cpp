@@ -8,7 +8,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::test {
-namespace {
+namespace csv_table_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -125,5 +125,5 @@ TEST(CsvFields, NumbersComeBackUnchanged) {
     EXPECT_EQ(line, "0.30000000000000004,-7,word,nan,1.5000001");
 }
 
-}  // namespace
+}  // namespace csv_table_test
 }  // namespace slamot::test

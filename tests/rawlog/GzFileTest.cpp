@@ -1,14 +1,13 @@
-#include "slamot/rawlog/GzFile.h"
-
 #include <mrpt/io/CFileGZInputStream.h>
 
 #include <thread>
 
 #include "TestLogs.h"
+#include "slamot/rawlog/GzFile.h"
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::test {
-namespace {
+namespace gz_file_test {
 
 class GzFile : public RawlogTest {
   protected:
@@ -38,5 +37,5 @@ TEST_F(GzFile, RefusesWhereNothingCanBeWritten) {
     EXPECT_THROW(writeGzFile(*odometryAt(1, 0), path("no folder/file")), LogError);
 }
 
-}  // namespace
+}  // namespace gz_file_test
 }  // namespace slamot::test

@@ -11,7 +11,7 @@
 #include "slamot/rawlog/Truth.h"
 
 namespace slamot::test {
-namespace {
+namespace importer_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -257,5 +257,5 @@ TEST_F(CsvImport, MistakesAreNamed) {
     EXPECT_THAT(messageOf("csv"), HasSubstr("bearing_std_deg"));
 }
 
-}  // namespace
+}  // namespace importer_test
 }  // namespace slamot::test

@@ -8,7 +8,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::test {
-namespace {
+namespace log_check_test {
 
 using ::testing::HasSubstr;
 
@@ -124,5 +124,5 @@ TEST_F(LogCheck, AProgramThatIsNotThereIsNamed) {
     EXPECT_THROW(summariseInChild(path("no_program"), path("a.rawlog"), {}), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace log_check_test
 }  // namespace slamot::test

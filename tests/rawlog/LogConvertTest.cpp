@@ -7,7 +7,7 @@
 #include "slamot/rawlog/LogError.h"
 
 namespace slamot::test {
-namespace {
+namespace log_convert_test {
 
 class Convert : public RawlogTest {
   protected:
@@ -130,5 +130,5 @@ TEST_F(Convert, CanBeStopped) {
     EXPECT_FALSE(std::filesystem::exists(path("b.rawlog")));
 }
 
-}  // namespace
+}  // namespace log_convert_test
 }  // namespace slamot::test

@@ -12,7 +12,7 @@
 #include "slamot/rawlog/RawlogReader.h"
 
 namespace slamot::test {
-namespace {
+namespace rawlog_reader_test {
 
 using ::testing::ElementsAre;
 
@@ -290,5 +290,5 @@ TEST_F(Reader, AMemoryLogGivesTheSameEntries) {
     EXPECT_EQ(memory.drops().total(), 2);
 }
 
-}  // namespace
+}  // namespace rawlog_reader_test
 }  // namespace slamot::test

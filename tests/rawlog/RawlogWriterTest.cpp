@@ -3,7 +3,7 @@
 #include "slamot/rawlog/RawlogWriter.h"
 
 namespace slamot::test {
-namespace {
+namespace rawlog_writer_test {
 
 class Writer : public RawlogTest {};
 
@@ -47,5 +47,5 @@ TEST_F(Writer, AFolderThatIsNotThereIsNamed) {
     EXPECT_THROW(RawlogWriter(path("b.rawlog")), LogError);
 }
 
-}  // namespace
+}  // namespace rawlog_writer_test
 }  // namespace slamot::test

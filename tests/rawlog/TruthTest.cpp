@@ -9,7 +9,7 @@
 #include "slamot/rawlog/Truth.h"
 
 namespace slamot::test {
-namespace {
+namespace truth_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -170,5 +170,5 @@ TEST(Truth, FolderBesideTheLog) {
     EXPECT_EQ(truthFolderOf("a/b.rawlog"), "a/b.truth");
 }
 
-}  // namespace
+}  // namespace truth_test
 }  // namespace slamot::test

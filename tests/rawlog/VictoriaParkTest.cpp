@@ -10,7 +10,7 @@
 #include "slamot/rawlog/Truth.h"
 
 namespace slamot::test {
-namespace {
+namespace victoria_park_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -214,5 +214,5 @@ TEST_F(VictoriaPark, TheRealOne) {
     EXPECT_FALSE(truth.pointAt(Stamp::fromSeconds(1223.284)));  // 141 m from the fix before
 }
 
-}  // namespace
+}  // namespace victoria_park_test
 }  // namespace slamot::test

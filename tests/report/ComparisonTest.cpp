@@ -10,7 +10,7 @@
 #include "slamot/report/Comparison.h"
 
 namespace slamot::report {
-namespace {
+namespace comparison_test {
 
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
@@ -298,5 +298,5 @@ TEST(MetricRows, numbersAreShort) {
     EXPECT_EQ(shortNumber(1.5e-9), "1.5e-09");
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace slamot::report

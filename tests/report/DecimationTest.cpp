@@ -6,7 +6,7 @@
 #include "slamot/report/Decimation.h"
 
 namespace slamot::report {
-namespace {
+namespace decimation_test {
 
 using ::testing::ElementsAre;
 
@@ -37,5 +37,5 @@ TEST(Decimation, oneMarkPerPixel) {
     EXPECT_THAT(keepOnePerPixel({{0.1, 0.1}, {0.9, 0.9}, {1.1, 0.1}, {-0.1, 0.1}}), ElementsAre(0, 2, 3));
 }
 
-}  // namespace
+}  // namespace decimation_test
 }  // namespace slamot::report

@@ -10,7 +10,7 @@
 #include "slamot/report/FigureSpec.h"
 
 namespace slamot::report {
-namespace {
+namespace figure_spec_test {
 
 using nlohmann::json;
 
@@ -278,5 +278,5 @@ TEST(FigureParts, histogramOutlineAndBand) {
     EXPECT_THROW(series({1, 2}, {1}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace figure_spec_test
 }  // namespace slamot::report

@@ -13,7 +13,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::report {
-namespace {
+namespace figure_writer_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -168,5 +168,5 @@ TEST_F(FigureWriter, aFolderThatCannotBeMadeIsAReportError) {
     EXPECT_THROW(writeFigure(simpleFigure(), folder_ / "file" / "f"), ReportError);
 }
 
-}  // namespace
+}  // namespace figure_writer_test
 }  // namespace slamot::report

@@ -7,7 +7,7 @@
 #include "slamot/report/Overview.h"
 
 namespace slamot::report {
-namespace {
+namespace overview_test {
 
 using ::testing::HasSubstr;
 
@@ -195,5 +195,5 @@ TEST(OverviewView, aStandingRobotHasRoomAroundIt) {
     EXPECT_EQ(view.high, Eigen::Vector2d(2.5, 3.5));
 }
 
-}  // namespace
+}  // namespace overview_test
 }  // namespace slamot::report

@@ -10,7 +10,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::report {
-namespace {
+namespace page_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -129,5 +129,5 @@ TEST(Rounded, isTheNearestDecimal) {
     EXPECT_TRUE(std::isnan(rounded(std::nan(""), 2)));
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace slamot::report

@@ -12,7 +12,7 @@
 #include "slamot/report/ReportSection.h"
 
 namespace slamot::report {
-namespace {
+namespace particles_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -116,7 +116,8 @@ TEST_F(Particles, ofVeryManySomeAreDrawnAndItIsSaid) {
         rows += fmt::format("1000.0000000,{},{},{},0,0\n", i, 1.0 / 30000, i);
     }
     writeParticles(rows);
-    EXPECT_EQ(layer("particles").at("first"), json({0, 25000, 25000, 25000, 25000}));  // 100,000 over four frames
+    EXPECT_EQ(layer("particles").at("first"),
+              json({0, 25000, 25000, 25000, 25000}));  // 100,000 over four frames
     EXPECT_THAT(replayOf(run()).note, HasSubstr("Of 30000 particles 25000 are drawn, chosen by weight."));
 }
 
@@ -155,5 +156,5 @@ TEST_F(Particles, landmarksHaveTheirExistenceWhereOneIsInDoubt) {
     EXPECT_FALSE(layer("landmarks").contains("existence"));  // of an earlier version: all certain
 }
 
-}  // namespace
+}  // namespace particles_test
 }  // namespace slamot::report

@@ -10,7 +10,7 @@
 #include "slamot/report/RunFolder.h"
 
 namespace slamot::report {
-namespace {
+namespace run_folder_test {
 
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
@@ -218,5 +218,5 @@ TEST(RunFolder, namesFileAndLineOfABrokenRow) {
     EXPECT_THAT(errorOf(folder.path()), HasSubstr("steps.csv:2"));
 }
 
-}  // namespace
+}  // namespace run_folder_test
 }  // namespace slamot::report

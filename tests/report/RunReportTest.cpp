@@ -12,7 +12,7 @@
 #include "slamot/report/RunReport.h"
 
 namespace slamot::report {
-namespace {
+namespace run_report_test {
 
 using nlohmann::json;
 using test::TemporaryFolder;
@@ -386,5 +386,5 @@ TEST(Courses, quantilesInterpolate) {
     EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 
-}  // namespace
+}  // namespace run_report_test
 }  // namespace slamot::report

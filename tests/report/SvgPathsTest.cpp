@@ -3,7 +3,7 @@
 #include "SvgPaths.h"
 
 namespace slamot::report {
-namespace {
+namespace svg_paths_test {
 
 TEST(SvgPaths, roundsPathsToHundredthsAndNothingElse) {
     EXPECT_EQ(roundPathCoordinates(
@@ -11,5 +11,5 @@ TEST(SvgPaths, roundsPathsToHundredthsAndNothingElse) {
               R"(<path d="M1.23,-0.5L0,11A2.5,3"/><text x="1.23456">0.12345</text>)");
 }
 
-}  // namespace
+}  // namespace svg_paths_test
 }  // namespace slamot::report

@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace clutter_test {
 
 using run::SensorRole;
 using testing::HasSubstr;
@@ -234,5 +234,5 @@ TEST_F(ClutterTest, ASensorWithoutALargestRangeIsAnError) {
     EXPECT_THAT(error, HasSubstr("expected [clutter] per_scan = 0"));
 }
 
-}  // namespace
+}  // namespace clutter_test
 }  // namespace slamot::test

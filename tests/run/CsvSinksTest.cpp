@@ -10,7 +10,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace csv_sinks_test {
 
 using run::Step;
 using testing::HasSubstr;
@@ -110,9 +110,8 @@ TEST_F(CsvSinksTest, ColumnsAreThoseOfTheDocumentation) {
     run::StepsSink steps(folder);
     run::TentativeSink tentative(folder, 0);
     run::ParticlesSink particles(folder, 0, 10);
-    for (run::Sink* sink :
-         std::initializer_list<run::Sink*>{&trajectory, &tracks, &landmarks, &history, &innovations, &steps,
-                                          &tentative, &particles})
+    for (run::Sink* sink : std::initializer_list<run::Sink*>{&trajectory, &tracks, &landmarks, &history,
+                                                             &innovations, &steps, &tentative, &particles})
         sink->end({});
     EXPECT_EQ(firstLineOf(path("trajectory.csv")), "t,x,y,theta,c_xx,c_xy,c_xt,c_yy,c_yt,c_tt");
     EXPECT_EQ(firstLineOf(path("tracks.csv")),
@@ -157,8 +156,10 @@ TEST_F(CsvSinksTest, TheHistoryTellsExistenceAndMovement) {
 TEST_F(CsvSinksTest, ParticlesAreWrittenAtTheRowsOfTheTrajectoryAndThinnedByWeight) {
     Spy spy;
     const Matrix3 none = Matrix3::Zero();
-    spy.cloud = {
-        {0.5, {{1, 2, 3}, none}}, {0.25, {{1.5, 2, -3}, none}}, {0.125, {{4, 0, 0}, none}}, {0.125, {{5, 0, 0}, none}}};
+    spy.cloud = {{0.5, {{1, 2, 3}, none}},
+                 {0.25, {{1.5, 2, -3}, none}},
+                 {0.125, {{4, 0, 0}, none}},
+                 {0.125, {{5, 0, 0}, none}}};
     const auto take = [&](run::Sink& sink, Step step) {
         step.estimator = &spy;
         sink.step(step);
@@ -379,5 +380,5 @@ TEST(StepTimerTest, PercentilesOfTheTimeBetweenOutputs) {
     EXPECT_EQ(timer.mean(), 3.0);
 }
 
-}  // namespace
+}  // namespace csv_sinks_test
 }  // namespace slamot::test

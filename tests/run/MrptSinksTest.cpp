@@ -15,7 +15,7 @@
 #include "slamot/run/MrptSinks.h"
 
 namespace slamot::test {
-namespace {
+namespace mrpt_sinks_test {
 
 namespace fs = std::filesystem;
 
@@ -227,5 +227,5 @@ TEST_F(MrptSinksTest, FilesThatCannotBeWrittenAreErrors) {
     EXPECT_FALSE(fs::exists(path("correlation.bin")));
 }
 
-}  // namespace
+}  // namespace mrpt_sinks_test
 }  // namespace slamot::test

@@ -7,7 +7,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace noise_test {
 
 using testing::HasSubstr;
 
@@ -91,5 +91,5 @@ TEST_F(NoiseTest, ACovarianceThatIsNoneIsAnError) {
                     HasSubstr("[noise.landmarks]"));
 }
 
-}  // namespace
+}  // namespace noise_test
 }  // namespace slamot::test

@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace pipeline_test {
 
 using run::RunStatus;
 using run::SensorRole;
@@ -421,5 +421,5 @@ TEST_F(PipelineTest, OneStepPerStampAndOneEnd) {
     EXPECT_EQ(sink.observations, 5);
 }
 
-}  // namespace
+}  // namespace pipeline_test
 }  // namespace slamot::test

@@ -6,7 +6,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace run_config_test {
 
 using run::assembleRun;
 using testing::HasSubstr;
@@ -164,5 +164,5 @@ TEST(RunConfigTest, TheFullTextOfEveryPluginAssemblesToItsDefaults) {
     EXPECT_THROW(run::fullConfigText("none_such", registry()), PluginError);
 }
 
-}  // namespace
+}  // namespace run_config_test
 }  // namespace slamot::test

@@ -15,7 +15,7 @@
 #include "support/Expect.h"
 
 namespace slamot::test {
-namespace {
+namespace run_job_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -149,10 +149,12 @@ TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {
 TEST_F(RunJobTest, ParticlesAreWrittenOnRequestAndChangeNothing) {
     writeLog(path("a.rawlog"), drive());
     const std::string config =
-        "[run]\nestimator = fastslam\n[fastslam]\nparticles = 20\n[identities]\nlandmarks = hidden\n[output]\nmap = false\n";
+        "[run]\nestimator = fastslam\n[fastslam]\nparticles = 20\n[identities]\nlandmarks = "
+        "hidden\n[output]\nmap = false\n";
     const auto plain = runLog("a.rawlog", config);
     const auto without = outputs();
-    const auto asked = runLog("a.rawlog", config + "particles = true\nmost_particles = 10\ntentative = true\n");
+    const auto asked =
+        runLog("a.rawlog", config + "particles = true\nmost_particles = 10\ntentative = true\n");
     EXPECT_EQ(asked.estimate_hash, plain.estimate_hash);
     EXPECT_THAT(outputs(), testing::IsSupersetOf({"particles.csv", "tentative.csv"}));
     EXPECT_EQ(outputs().size(), without.size() + 2);
@@ -170,7 +172,8 @@ TEST_F(RunJobTest, ParticlesAreWrittenOnRequestAndChangeNothing) {
         candidates.insert(tentative.integer(tentative.column("id")));
         EXPECT_LT(tentative.number(tentative.column("existence")), 1);
     }
-    for (const LandmarkEstimate& landmark : asked.record.landmarks) EXPECT_EQ(candidates.count(landmark.id.value), 1u);
+    for (const LandmarkEstimate& landmark : asked.record.landmarks)
+        EXPECT_EQ(candidates.count(landmark.id.value), 1u);
     EXPECT_EQ(asked.record.landmarks.size(), 2u);
     runLog("a.rawlog", config);
     EXPECT_EQ(outputs(), without);
@@ -496,5 +499,5 @@ TEST_F(GoldenImmRawlogTest, AgreesWithTheTrace) {
 
 INSTANTIATE_TEST_SUITE_P(Paper1, GoldenRawlogTest, testing::Values("classic", "invariant"));
 
-}  // namespace
+}  // namespace run_job_test
 }  // namespace slamot::test

@@ -4,7 +4,7 @@
 #include "slamot/sim/Controller.h"
 
 namespace slamot::sim {
-namespace {
+namespace controller_test {
 
 const std::vector<SpeedLevel> paper1_levels{{3, 0.5}, {10, 3}, {20, 6}, {40, 10}, {1e9, 15}};
 
@@ -88,5 +88,5 @@ TEST(Controller, WaypointsEndInAStandstill) {
     EXPECT_EQ(controller.command({9, 0, 0}, {}), Vector2(0, 0));  // within the reach of 2 m
 }
 
-}  // namespace
+}  // namespace controller_test
 }  // namespace slamot::sim

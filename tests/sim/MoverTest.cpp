@@ -4,7 +4,7 @@
 #include "slamot/sim/Mover.h"
 
 namespace slamot::sim {
-namespace {
+namespace mover_test {
 
 TEST(Mover, ConstantVelocityWithoutNoiseIsAStraightLine) {
     const Trajectory t = simulateMover(standingRobot(20), straightMover(3, {1, 2}, {2, -1}), 1);
@@ -211,5 +211,5 @@ TEST(Mover, StartsWhereItsBoxAndSpeedsAllow) {
     EXPECT_TRUE(left && right);
 }
 
-}  // namespace
+}  // namespace mover_test
 }  // namespace slamot::sim

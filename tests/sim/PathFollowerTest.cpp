@@ -3,7 +3,7 @@
 #include "slamot/sim/PathFollower.h"
 
 namespace slamot::sim {
-namespace {
+namespace path_follower_test {
 
 TEST(PathFollower, GoesOnWhenAWaypointIsNear) {
     PathFollower path({{10, 0}, {10, 10}}, {0, 0}, 1, 1);
@@ -42,5 +42,5 @@ TEST(PathFollower, APathThatIsNearAsAWholeDoesNotHang) {
     EXPECT_TRUE(path.next({0, 0}).has_value());
 }
 
-}  // namespace
+}  // namespace path_follower_test
 }  // namespace slamot::sim

@@ -9,7 +9,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
-namespace {
+namespace rawlog_round_trip_test {
 
 TEST(SimulatedLog, ComesBackFromARawlogInItsOrderWithItsTruth) {
     mrpt::obs::registerAllClasses_mrpt_obs();
@@ -62,5 +62,5 @@ TEST(SimulatedLog, ComesBackFromARawlogInItsOrderWithItsTruth) {
     EXPECT_EQ(truth.associations.back().id, log.truth.associations.back().id);
 }
 
-}  // namespace
+}  // namespace rawlog_round_trip_test
 }  // namespace slamot::sim

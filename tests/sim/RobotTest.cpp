@@ -5,7 +5,7 @@
 #include "slamot/sim/Robot.h"
 
 namespace slamot::sim {
-namespace {
+namespace robot_test {
 
 RobotRun run(const Scenario& scenario, std::uint64_t seed = 1) {
     return simulateRobot(scenario, scenario.robots.front(), {}, {}, seed);
@@ -171,5 +171,5 @@ TEST(Robot, IsAMoverToItsTeamMates) {
     EXPECT_TRUE(std::isnan(t.states[3].acceleration.x()));
 }
 
-}  // namespace
+}  // namespace robot_test
 }  // namespace slamot::sim

@@ -11,7 +11,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
-namespace {
+namespace scenario_test {
 
 using ::testing::HasSubstr;
 
@@ -151,7 +151,8 @@ TEST(Scenario, ProgramsAreHeldToTheSameRanges) {
 TEST(Scenario, AFileWorldIsFoundBesideItsScenario) {
     const test::TemporaryFolder folder;
     folder.write("landmarks.csv", "id,x,y\n3,1,2\n");
-    const std::string file = folder.write("scenario.ini", "[world]\nkind = file\nfile = landmarks.csv\n[robot]\n");
+    const std::string file =
+        folder.write("scenario.ini", "[world]\nkind = file\nfile = landmarks.csv\n[robot]\n");
     const Scenario scenario = loadScenario(Config::fromFile(file));
     EXPECT_EQ(simulate(scenario, 1).at(0).truth.landmarks.at(SourceId{3}), Vector2(1, 2));
 }
@@ -191,5 +192,5 @@ TEST(Scenario, TheDocumentHoldsTheReference) {
     EXPECT_NE(document.str().find(scenarioReference()), std::string::npos) << scenarioReference();
 }
 
-}  // namespace
+}  // namespace scenario_test
 }  // namespace slamot::sim

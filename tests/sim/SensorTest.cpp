@@ -6,7 +6,7 @@
 #include "slamot/sim/Sensor.h"
 
 namespace slamot::sim {
-namespace {
+namespace sensor_test {
 
 /// Landmarks every degree on circles of 5, 10, ..., 30 m around the origin: id = 360 * circle + degree.
 World rings() {
@@ -228,5 +228,5 @@ TEST_F(Roles, DecideWhatIsSeenAndWhichIdentitiesAreWritten) {
     EXPECT_EQ(kinds(look(sensor, 0)), (Kinds{"mover1000001/-1", "landmark5/-1", "mover5/-1"}));
 }
 
-}  // namespace
+}  // namespace sensor_test
 }  // namespace slamot::sim

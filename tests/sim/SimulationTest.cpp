@@ -6,7 +6,7 @@
 #include "slamot/sim/Simulation.h"
 
 namespace slamot::sim {
-namespace {
+namespace simulation_test {
 
 Scenario shipped(const std::string& name) {
     return loadScenario(Config::fromFile(SLAMOT_SOURCE_DIR "/config/scenarios/" + name));
@@ -233,5 +233,5 @@ INSTANTIATE_TEST_SUITE_P(All, Shipped,
                              return name.substr(0, name.find('.'));
                          });
 
-}  // namespace
+}  // namespace simulation_test
 }  // namespace slamot::sim

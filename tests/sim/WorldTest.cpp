@@ -7,7 +7,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::sim {
-namespace {
+namespace world_test {
 
 TEST(UniformWorld, FillsItsBoxEvenly) {
     WorldParameters p;
@@ -132,5 +132,5 @@ TEST_F(FileWorld, RefusesWhatIsNoLandmark) {
     EXPECT_THROW(makeWorld(of("id,x\n1,2\n"), 1), LogError);
 }
 
-}  // namespace
+}  // namespace world_test
 }  // namespace slamot::sim

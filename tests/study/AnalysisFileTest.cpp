@@ -10,10 +10,9 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::study {
-namespace {
+namespace analysis_file_test {
 
-using namespace test;
-using slamot::test::messageOf;
+using test::messageOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -267,7 +266,7 @@ std::string exampleOf(const std::string& page) {
 }
 
 TEST(AnalysisFile, TheExamplesOfTheDocsAreRight) {
-    const slamot::test::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     for (const char* page : {"studies.md", "studies_analysis.md"}) {
         const std::string file = folder.write("example.ini", exampleOf(page));
         EXPECT_NO_THROW(readAnalysis(loadStudy(file))) << page;
@@ -285,5 +284,5 @@ TEST(AnalysisFile, TheProjectsOwnStudiesAreRight) {
     EXPECT_GT(studies, 0);
 }
 
-}  // namespace
+}  // namespace analysis_file_test
 }  // namespace slamot::study

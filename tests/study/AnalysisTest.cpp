@@ -8,9 +8,7 @@
 #include "study/Builders.h"
 
 namespace slamot::study {
-namespace {
-
-using namespace test;
+namespace analysis_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const std::string rmse = "robot.position.rmse";
@@ -247,5 +245,5 @@ TEST(Rank, AWorldWhereOneHasNoSuchFigureDoesNotCount) {
         EXPECT_EQ(r.rank.count, 0);
 }
 
-}  // namespace
+}  // namespace analysis_test
 }  // namespace slamot::study

@@ -6,7 +6,7 @@
 #include "slamot/study/AnalysisFile.h"
 #include "slamot/study/Row.h"
 
-namespace slamot::study::test {
+namespace slamot::study {
 
 /// Sources `paper1` and `quiet`, configs `classic` and `invariant`, no grids; `text` holds the analysis.
 inline StudyFile studyOf(const std::string& text) {
@@ -55,4 +55,4 @@ inline std::vector<Row> operator+(std::vector<Row> a, const std::vector<Row>& b)
     return a;
 }
 
-}  // namespace slamot::study::test
+}  // namespace slamot::study

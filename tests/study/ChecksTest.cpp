@@ -10,9 +10,8 @@
 #include "study/Builders.h"
 
 namespace slamot::study {
-namespace {
+namespace checks_test {
 
-using namespace test;
 using testing::HasSubstr;
 
 /// Replicates 1 to `replicates` of both sources with both configs.
@@ -247,8 +246,14 @@ TEST(Checks, TableSaysWhatWasChecked) {
 
 TEST(Checks, TerminalHasEightyColumns) {
     CheckReport report;
-    report.results.push_back({"c", "mean ratio of RMSE of the robot's position, a world with a long name, this to that",
-                              CheckState::failed, 2.0833333, {0, 0.65}, "", "the aim that was set for this one"});
+    report.results.push_back(
+        {"c",
+         "mean ratio of RMSE of the robot's position, a world with a long name, this to that",
+         CheckState::failed,
+         2.0833333,
+         {0, 0.65},
+         "",
+         "the aim that was set for this one"});
     EXPECT_EQ(toTerminal(report),
               "FAILED       c\n"
               "    mean ratio of RMSE of the robot's position, a world with a long name, this\n"
@@ -256,5 +261,5 @@ TEST(Checks, TerminalHasEightyColumns) {
               "    the aim that was set for this one\n");
 }
 
-}  // namespace
+}  // namespace checks_test
 }  // namespace slamot::study

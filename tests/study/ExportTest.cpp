@@ -13,9 +13,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::study {
-namespace {
-
-using namespace test;
+namespace export_test {
 
 const char* const text = R"([table.errors]
 kind = means
@@ -62,7 +60,7 @@ class Export : public testing::Test {
         return rows;
     }
 
-    const slamot::test::TemporaryFolder folder_;
+    const test::TemporaryFolder folder_;
     std::string not_drawn_;
 };
 
@@ -143,10 +141,10 @@ TEST_F(Export, OnlyItsOwnEarlierFilesGiveWay) {
     EXPECT_FALSE(there("tables/old.md"));
     EXPECT_FALSE(there("tables/old.csv"));
 
-    EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("other", "x", folder_.path("again")); }),
+    EXPECT_THAT(test::messageOf<LogError>([&] { exportTable("other", "x", folder_.path("again")); }),
                 testing::HasSubstr("again: holds an export of the study 'demo', expected one of 'other'"));
     EXPECT_TRUE(there("tables/new.md"));
-    EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("demo", "x", folder_.path()); }),
+    EXPECT_THAT(test::messageOf<LogError>([&] { exportTable("demo", "x", folder_.path()); }),
                 testing::HasSubstr("holds files that no export of a study made"));
 }
 
@@ -155,7 +153,7 @@ TEST_F(Export, AFullDiskIsASentence) {
         const std::string out = folder_.path("full" + std::to_string(file[0]) + file[1]);
         exportTable("demo", "t", out);
         std::filesystem::create_symlink("/dev/full", out + "/" + file + ".part");
-        EXPECT_THAT(slamot::test::messageOf<LogError>([&] { exportTable("demo", "t", out); }),
+        EXPECT_THAT(test::messageOf<LogError>([&] { exportTable("demo", "t", out); }),
                     testing::HasSubstr(std::string(file) + ": cannot be written to its end"));
     }
 }
@@ -175,5 +173,5 @@ TEST_F(Export, AFolderThatCannotBeMadeIsAnError) {
     EXPECT_THROW(exportStudy({study, analysis, {}}, folder_.path("file/out")), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace slamot::study

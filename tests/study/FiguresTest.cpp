@@ -10,9 +10,8 @@
 #include "study/Builders.h"
 
 namespace slamot::study {
-namespace {
+namespace figures_test {
 
-using namespace test;
 using testing::ElementsAre;
 
 report::Figure figureOf(const StudyFile& study, const std::vector<Row>& rows) {
@@ -246,5 +245,5 @@ TEST(QuantileOf, BetweenOrderStatistics) {
     EXPECT_EQ(quantileOf({5}, 0.3), 5);
 }
 
-}  // namespace
+}  // namespace figures_test
 }  // namespace slamot::study

@@ -6,7 +6,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace one_run_test {
 
 using testing::HasSubstr;
 
@@ -290,5 +290,5 @@ TEST_F(OneRunTest, MistakesAreSentences) {
     EXPECT_THAT(message(figureText("map", "config = classic\nseries = robot_nees\n")), HasSubstr("series"));
 }
 
-}  // namespace
+}  // namespace one_run_test
 }  // namespace slamot::study

@@ -12,10 +12,9 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::study {
-namespace {
+namespace page_test {
 
-using namespace test;
-using slamot::test::messageOf;
+using test::messageOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -46,7 +45,7 @@ class Page : public testing::Test {
 
     const StudyFile study_ = studyOf(analysis_text);
     const Analysis analysis_ = readAnalysis(study_);
-    const slamot::test::TemporaryFolder folder_;
+    const test::TemporaryFolder folder_;
 };
 
 TEST_F(Page, FillsTablesAndStamp) {
@@ -234,5 +233,5 @@ TEST(ProvenanceHere, KnowsDayAndMachine) {
     EXPECT_EQ(here.command, "slamot study x.ini");
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace slamot::study

@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace plan_test {
 
 using test::messageOf;
 using testing::ElementsAre;
@@ -291,5 +291,5 @@ TEST_F(PlanTest, MistakesNameFileLineKeyAndWhatWasExpected) {
            "did you mean 'mrclam'?");
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace slamot::study

@@ -6,9 +6,8 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot::study {
-namespace {
+namespace report_test {
 
-using namespace test;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -32,7 +31,7 @@ class StudyReport : public testing::Test {
 
     const StudyFile study_ = studyOf(analysis_text);
     const Analysis analysis_ = readAnalysis(study_);
-    const slamot::test::TemporaryFolder folder_;
+    const test::TemporaryFolder folder_;
 };
 
 TEST_F(StudyReport, hasTheTablesOfTheStudyFileAsText) {
@@ -64,5 +63,5 @@ TEST_F(StudyReport, aFileThatCannotBeWrittenIsASentence) {
                  report::ReportError);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace slamot::study

@@ -5,7 +5,7 @@
 #include "slamot/study/Row.h"
 
 namespace slamot::study {
-namespace {
+namespace row_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -80,5 +80,5 @@ TEST(Row, FiguresAreMetricsOrCosts) {
     EXPECT_TRUE(std::isnan(figureOf(row, "nothing")));
 }
 
-}  // namespace
+}  // namespace row_test
 }  // namespace slamot::study

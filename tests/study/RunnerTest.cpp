@@ -13,7 +13,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace runner_test {
 
 using testing::HasSubstr;
 
@@ -310,5 +310,5 @@ TEST_F(RunnerTest, ProgressCountsRuns) {
     EXPECT_EQ(told.front().done, 2u);
 }
 
-}  // namespace
+}  // namespace runner_test
 }  // namespace slamot::study

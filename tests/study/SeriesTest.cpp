@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace series_test {
 
 using testing::DoubleEq;
 using testing::ElementsAre;
@@ -154,5 +154,5 @@ TEST_F(SeriesTest, UnknownNamesAreMistakes) {
     EXPECT_THROW(requireKnownSeries({"p_"}, "a.ini:3"), ConfigError);
 }
 
-}  // namespace
+}  // namespace series_test
 }  // namespace slamot::study

@@ -10,7 +10,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace session_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -156,5 +156,5 @@ TEST(ShellLine, QuotesWhatAShellWouldTakeApart) {
     EXPECT_EQ(shellLine({"a b", "", "it's", "$HOME", "ü*"}), "'a b' '' 'it'\\''s' '$HOME' 'ü*'");
 }
 
-}  // namespace
+}  // namespace session_test
 }  // namespace slamot::study

@@ -6,7 +6,7 @@
 #include "support/Expect.h"
 
 namespace slamot::study {
-namespace {
+namespace store_test {
 
 using test::messageOf;
 using testing::HasSubstr;
@@ -187,5 +187,5 @@ TEST_F(StoreTest, FilesOfSomethingElseAreRefusedUnchanged) {
     EXPECT_THAT(messageOf<LogError>([&] { store.merge(junk, laid, false); }), HasSubstr("junk.db"));
 }
 
-}  // namespace
+}  // namespace store_test
 }  // namespace slamot::study

@@ -9,9 +9,8 @@
 #include "study/Builders.h"
 
 namespace slamot::study {
-namespace {
+namespace tables_test {
 
-using namespace test;
 using testing::ElementsAre;
 
 /// The only table of a study.
@@ -212,5 +211,5 @@ TEST(Csv, QuotesWhatNeedsIt) {
     EXPECT_EQ(toCsv(strange()), "name,value,width\na|b c,1,0.5\n\"\"\"q\"\", r\",,\n");
 }
 
-}  // namespace
+}  // namespace tables_test
 }  // namespace slamot::study

@@ -12,7 +12,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace background_map_test {
 
 using test::randomCovariance;
 using test::randomMatrix;
@@ -226,5 +226,5 @@ INSTANTIATE_TEST_SUITE_P(All, BackgroundMap,
                                     (each.param.modes[0] == '\0' ? "" : "Modes");
                          });
 
-}  // namespace
+}  // namespace background_map_test
 }  // namespace slamot

@@ -11,7 +11,7 @@
 #include "slamot/core/estimation/SerialWorker.h"
 
 namespace slamot {
-namespace {
+namespace serial_worker_test {
 
 class SerialWorkers : public testing::TestWithParam<bool> {};
 
@@ -99,5 +99,5 @@ TEST(SerialWorkerTest, ItsEndWaitsForTheJobThatIsBeingDoneAndDropsTheOthers) {
     EXPECT_FALSE(second);
 }
 
-}  // namespace
+}  // namespace serial_worker_test
 }  // namespace slamot

@@ -1,13 +1,13 @@
-#include "slamot/core/threads/Workers.h"
-
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <stdexcept>
 #include <vector>
 
+#include "slamot/core/threads/Workers.h"
+
 namespace slamot {
-namespace {
+namespace workers_test {
 
 class WorkerCounts : public testing::TestWithParam<int> {};
 
@@ -37,7 +37,8 @@ TEST_P(WorkerCounts, WhatAJobThrowsComesBack) {
     EXPECT_EQ(sum, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, WorkerCounts, testing::Values(0, 1, 2, 4), testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Threads, WorkerCounts, testing::Values(0, 1, 2, 4),
+                         testing::PrintToStringParamName());
 
-}  // namespace
+}  // namespace workers_test
 }  // namespace slamot

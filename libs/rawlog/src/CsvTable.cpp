@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -131,6 +132,12 @@ double CsvReader::number(int column) const {
     return *value;
 }
 
+double CsvReader::finite(int column) const {
+    const double value = number(column);
+    if (!std::isfinite(value)) fail(column, "a finite number");
+    return value;
+}
+
 std::int64_t CsvReader::integer(int column) const {
     const std::string& field = fields_[column];
     std::int64_t value = 0;
@@ -145,6 +152,10 @@ Stamp CsvReader::stamp(int column) const {
     } catch (const std::invalid_argument&) {
         fail(column, "a time in decimal seconds");
     }
+}
+
+void CsvReader::failNotRising(int column, Stamp before) const {
+    fail(column, "a time later than the row before, which has " + toText(before));
 }
 
 void CsvReader::fail(int column, const std::string& expected) const {

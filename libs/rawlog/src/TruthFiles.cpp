@@ -21,21 +21,6 @@ using nlohmann::json;
 constexpr const char* gap_key = "gap_means_longer_than_seconds";
 const std::string target_prefix = "target_", target_suffix = ".csv";
 
-/// The stamp of this row, which must be later than `last`'s.
-template <class Sample>
-Stamp risingStamp(const CsvReader& csv, int column, const std::vector<Sample>& samples) {
-    const Stamp stamp = csv.stamp(column);
-    if (!samples.empty() && stamp <= samples.back().stamp)
-        csv.fail(column, "a time later than the row before, which has " + toText(samples.back().stamp));
-    return stamp;
-}
-
-double finite(const CsvReader& csv, int column) {
-    const double value = csv.number(column);
-    if (!std::isfinite(value)) csv.fail(column, "a finite number");
-    return value;
-}
-
 std::vector<TruePose> readRobot(const std::string& file) {
     CsvReader csv(file);
     const int t = csv.column("t"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
@@ -43,8 +28,8 @@ std::vector<TruePose> readRobot(const std::string& file) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     while (csv.next())
         poses.push_back(
-            {risingStamp(csv, t, poses),
-             {finite(csv, x), finite(csv, y), csv.empty(theta) ? unknown : wrapAngle(finite(csv, theta))}});
+            {csv.risingStamp(t, poses),
+             {csv.finite(x), csv.finite(y), csv.empty(theta) ? unknown : wrapAngle(csv.finite(theta))}});
     return poses;
 }
 
@@ -59,7 +44,7 @@ std::vector<TrueTarget> readTarget(const std::string& file) {
     };
     std::vector<TrueTarget> samples;
     while (csv.next())
-        samples.push_back({risingStamp(csv, t, samples),
+        samples.push_back({csv.risingStamp(t, samples),
                            {csv.number(x), csv.number(y)},
                            {number(vx), number(vy)},
                            {number(ax), number(ay)},
@@ -91,7 +76,7 @@ std::map<SourceId, Vector2> readLandmarks(const std::string& file) {
     const int id = csv.column("id"), x = csv.column("x"), y = csv.column("y");
     std::map<SourceId, Vector2> landmarks;
     while (csv.next())
-        if (!landmarks.emplace(SourceId{csv.integer(id)}, Vector2{finite(csv, x), finite(csv, y)}).second)
+        if (!landmarks.emplace(SourceId{csv.integer(id)}, Vector2{csv.finite(x), csv.finite(y)}).second)
             csv.fail(id, "an id that is not given twice");
     return landmarks;
 }

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double swatch = 22, gap = 6, between_entries = 18, row_height = 18;  // pixels
+constexpr double swatch = 22, after_swatch = 6, between_entries = 18, row_height = 18;  // pixels
 
 json fixedMark(const char* type, json encoding) {
     return {{"type", type}, {"interactive", false}, {"encode", {{"update", std::move(encoding)}}}};
@@ -91,15 +91,15 @@ LegendSpec legendSpec(const Panel& panel, double width) {
         if (labelOf(layer).empty()) {
             continue;
         }
-        const std::string label = fitText(labelOf(layer), label_size, width - swatch - gap);
-        const double entry_width = swatch + gap + textWidth(label, label_size);
+        const std::string label = fitText(labelOf(layer), label_size, width - swatch - after_swatch);
+        const double entry_width = swatch + after_swatch + textWidth(label, label_size);
         const bool new_row = panel.legend == LegendPlace::right || x + entry_width > width;
         if (new_row && legend.height > 0) {
             x = 0;
             y += row_height;
         }
         legend.marks.push_back(std::visit(Swatch{x, y}, layer));
-        legend.marks.push_back(fixedMark("text", {{"x", constant(x + swatch + gap)},
+        legend.marks.push_back(fixedMark("text", {{"x", constant(x + swatch + after_swatch)},
                                                   {"y", constant(y)},
                                                   {"text", constant(label)},
                                                   {"baseline", constant("middle")},

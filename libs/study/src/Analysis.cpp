@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "Words.h"
+
 namespace slamot::study {
 namespace {
 
@@ -21,10 +23,6 @@ bool hasTruth(const Row& row) {
 /// As figureOf(Cell) has it.
 double figureOfEnded(const Row& row, const std::string& figure) {
     return hasFailed(row) ? Statistic::none : figureOf(row, figure);
-}
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// 1 for the smallest; equal values share the mean of the ranks they take up.

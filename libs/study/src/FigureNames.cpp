@@ -64,10 +64,6 @@ const std::vector<std::string>& names() {
     return all;
 }
 
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 /// Costs end in their unit or have it before the statistic: cost.wall_s, cost.step_ms_p99.
 FigureUnit unitOfCost(const std::string& cost) {
     const std::vector<std::string> words = split(cost, '_');
@@ -93,7 +89,8 @@ FigureUnit unitOf(const std::string& figure) {
     if (contains({"inside", "coverage", "recall", "precision", "mota", "idf1", "idp", "idr"}, last))
         return {Dimension::part, 1};
     if (last == "motp") return {Dimension::length, 1};
-    if (of == "tgospa" && contains({"total", "lower_bound", "per_stamp"}, last)) return {Dimension::length, 1};
+    if (of == "tgospa" && contains({"total", "lower_bound", "per_stamp"}, last))
+        return {Dimension::length, 1};
     if (contains({"rmse", "mean", "median", "maximum", "final"}, last)) {
         if (contains({"position", "relative_position", "x", "y"}, of)) return {Dimension::length, 1};
         if (of == "heading") return {Dimension::angle, 1};

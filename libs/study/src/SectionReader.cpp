@@ -8,15 +8,11 @@
 #include "Words.h"
 
 namespace slamot::study {
-namespace {
 
-/// Of "file.ini:12"; 0 where there is none, as with --set.
 int lineOf(const std::string& origin) {
     const auto colon = origin.rfind(':');
     return colon == std::string::npos ? 0 : std::atoi(origin.c_str() + colon + 1);
 }
-
-}  // namespace
 
 std::string trimmed(const std::string& text) {
     const char* blanks = " \t\r";

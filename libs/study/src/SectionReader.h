@@ -13,6 +13,9 @@ namespace slamot::study {
 /// Without blanks at either end.
 std::string trimmed(const std::string& text);
 
+/// The line at the end of an origin, `study.ini:12`; 0 where there is none, as with --set.
+int lineOf(const std::string& origin);
+
 /// Names of the sections `prefix`NAME, in the order of the file.
 std::vector<std::string> sectionsOf(const Config& config, const std::string& prefix);
 

@@ -4,6 +4,8 @@
 #include <set>
 #include <tuple>
 
+#include "Words.h"
+
 namespace slamot::study {
 namespace {
 
@@ -11,10 +13,6 @@ namespace {
 template <class T>
 std::size_t placeOf(const std::vector<T>& list, const T& item) {
     return static_cast<std::size_t>(std::find(list.begin(), list.end(), item) - list.begin());
-}
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-    return placeOf(words, word) < words.size();
 }
 
 Field plain(const std::string& shown, const std::string& raw) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "SectionReader.h"
 #include "Sources.h"
 #include "Words.h"
 #include "slamot/core/config/Parameters.h"
@@ -27,11 +28,6 @@ const std::vector<std::string> analysis_prefixes = {"table.", "figure.", "check.
     throw ConfigError(origin + ": " + what);
 }
 
-/// The line at the end of an origin, `study.ini:12`.
-int lineOf(const std::string& origin) {
-    return std::stoi(origin.substr(origin.rfind(':') + 1));
-}
-
 struct Setting {
     std::string key, value, origin;
 };
@@ -48,12 +44,7 @@ std::vector<Setting> settingsOf(const Config& text, const std::string& section) 
 
 /// Names of the sections that start with `prefix`, in the order of the file, without it.
 std::vector<std::string> namesAfter(const Config& text, const std::string& prefix) {
-    std::vector<std::string> sections;
-    for (const std::string& section : text.sectionNames())
-        if (section.rfind(prefix, 0) == 0) sections.push_back(section);
-    std::sort(sections.begin(), sections.end(), [&](const std::string& a, const std::string& b) {
-        return lineOf(text.origin(a)) < lineOf(text.origin(b));
-    });
+    std::vector<std::string> sections = sectionsOf(text, prefix);
     for (std::string& section : sections) {
         const std::string name = section.substr(prefix.size());
         if (!isPlainName(name))

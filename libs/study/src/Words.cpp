@@ -24,4 +24,8 @@ bool isPlainName(const std::string& name) {
     });
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 }  // namespace slamot::study

@@ -127,7 +127,7 @@ class Suspect : public Estimator {
 IMPLEMENTS_MRPT_OBJECT(Suspect, slamot::Estimator, slamot::conformance)
 
 namespace slamot::conformance {
-namespace {
+namespace laws_test {
 
 Options suspect(Flaw flaw, double sampling = 0) {
     Options options;
@@ -184,7 +184,7 @@ TEST(LawsTest, SampledLawsHoldForAnHonestSampler) {
     EXPECT_EQ(resetEqualsNew(shaken()), "");
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace slamot::conformance
 
-SLAMOT_CONFORMANCE_SUITE(honest, slamot::conformance::suspect(slamot::conformance::Flaw::none));
+SLAMOT_CONFORMANCE_SUITE(honest, slamot::conformance::laws_test::suspect(slamot::conformance::Flaw::none));

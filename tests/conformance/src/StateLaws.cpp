@@ -11,7 +11,7 @@
 namespace slamot::conformance {
 namespace {
 
-constexpr std::uint64_t seed = 7;
+constexpr std::uint64_t one_seed = 7;
 
 /// F P F^t in floating point is symmetric to a few ulp, not to the bit.
 constexpr double symmetry_tolerance = 1e-12;
@@ -113,7 +113,7 @@ Verdict firstOver(Estimator& estimator, const Play& play, const Check& check) {
 
 Verdict sameBitsForAnyThreads(const Options& options) {
     return guarded([&]() -> Verdict {
-        Play play = playOf(roundTrip(), seed);
+        Play play = playOf(roundTrip(), one_seed);
         std::string first;
         for (const int threads : {1, 1, 2, 4}) {
             play.start.threads = threads;
@@ -128,7 +128,7 @@ Verdict sameBitsForAnyThreads(const Options& options) {
 
 Verdict resetEqualsNew(const Options& options) {
     return guarded([&]() -> Verdict {
-        const Play play = playOf(roundTrip(), seed), other = playOf(roundTrip(), seed + 1);
+        const Play play = playOf(roundTrip(), one_seed), other = playOf(roundTrip(), one_seed + 1);
         const std::string fresh = bitsOfRun(*subjectFor(options, play), play);
         const auto used = subjectFor(options, play);
         playAll(*used, other);
@@ -149,7 +149,7 @@ Verdict resetEqualsNew(const Options& options) {
 
 Verdict covariancesStayDefinite(const Options& options) {
     return guarded([&] {
-        const Play play = playOf(roughBearings(), seed);
+        const Play play = playOf(roughBearings(), one_seed);
         return firstOver(*subjectFor(options, play), play,
                          [](const Estimator& now, const UpdateReport*) { return definite(now); });
     });
@@ -157,7 +157,7 @@ Verdict covariancesStayDefinite(const Options& options) {
 
 Verdict emptySetIsAccepted(const Options& options) {
     return guarded([&]() -> Verdict {
-        const Play play = playOf(roundTrip(), seed);
+        const Play play = playOf(roundTrip(), one_seed);
         const auto estimator = subjectFor(options, play);
         estimator->start(play.start);
         for (const std::size_t half : {std::size_t{0}, play.steps.size() / 2}) {
@@ -181,7 +181,7 @@ Verdict emptySetIsAccepted(const Options& options) {
 
 Verdict timeGoingBackIsRefused(const Options& options) {
     return guarded([&]() -> Verdict {
-        const Play play = playOf(roundTrip(), seed);
+        const Play play = playOf(roundTrip(), one_seed);
         const auto estimator = subjectFor(options, play);
         const std::size_t half = play.steps.size() / 2;
         estimator->start(play.start);
@@ -211,7 +211,7 @@ Verdict timeGoingBackIsRefused(const Options& options) {
 
 Verdict queriesAgree(const Options& options) {
     return guarded([&] {
-        const Play play = playOf(roundTrip(), seed);
+        const Play play = playOf(roundTrip(), one_seed);
         return firstOver(*subjectFor(options, play), play,
                          [](const Estimator& now, const UpdateReport*) { return agree(now); });
     });
@@ -219,7 +219,7 @@ Verdict queriesAgree(const Options& options) {
 
 Verdict crowdIsSurvived(const Options& options) {
     return guarded([&] {
-        const Play play = withNuisances(playOf(crowd(), seed));
+        const Play play = withNuisances(playOf(crowd(), one_seed));
         int step = 0;
         Verdict verdict = firstOver(
             *subjectFor(options, play), play,

@@ -8,7 +8,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace assignment_test {
 
 struct BruteForce {
     int pairs = 0;
@@ -108,5 +108,5 @@ TEST(Assignment, RefusesNan) {
     EXPECT_THROW(optimalAssignment(Eigen::MatrixXd::Constant(1, 1, std::nan(""))), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace assignment_test
 }  // namespace slamot

@@ -6,7 +6,7 @@
 #include "slamot/core/association/AssociationMarginals.h"
 
 namespace slamot {
-namespace {
+namespace association_marginals_test {
 
 constexpr int unlimited = 1 << 30, loopy = 0;
 
@@ -89,8 +89,8 @@ TEST(AssociationMarginals, OnePairByHand) {
 
 TEST(AssociationMarginals, TwoByTwoByHand) {
     // Odds 1 everywhere: 1 + 4 + 2 hypotheses of equal weight, each pair in 1 + 1 of them. Belief
-    // propagation's fixed point is mu = nu = 1 / (1 + nu), the golden section g, so a pair has mu nu / (1 + mu
-    // nu), and Bethe's sum is ((1 + 2 g) / (1 + g^2))^4 = 6.85 instead of 7.
+    // propagation's fixed point is mu = nu = 1 / (1 + nu), the golden section g, so a pair has mu nu / (1 +
+    // mu nu), and Bethe's sum is ((1 + 2 g) / (1 + g^2))^4 = 6.85 instead of 7.
     const Odds odds = withOdds(2, 2, {{0, 0, 1.0}, {0, 1, 1.0}, {1, 0, 1.0}, {1, 1, 1.0}});
     const AssociationMarginals exact = associationMarginals(odds.problem, odds.model, unlimited);
     for (const double p : exact.pair) EXPECT_NEAR(p, 2.0 / 7.0, 1e-15);
@@ -292,5 +292,5 @@ TEST(AssociationMarginals, AnObjectThatCannotBeSeenIsMissed) {
     }
 }
 
-}  // namespace
+}  // namespace association_marginals_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace association_problem_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -72,5 +72,5 @@ TEST(AssociationProblem, ALongChainIsOneCluster) {
     EXPECT_EQ(found[0].objects.size(), 101u);
 }
 
-}  // namespace
+}  // namespace association_problem_test
 }  // namespace slamot

@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace batch_association_test {
 
 using test::allMethods;
 using test::BatchScene;
@@ -386,5 +386,5 @@ TEST_P(TurnedBatches, GiveTheSameAnswers) {
     EXPECT_GE(paired, 12 * 9) << "or little was compared";
 }
 
-}  // namespace
+}  // namespace batch_association_test
 }  // namespace slamot

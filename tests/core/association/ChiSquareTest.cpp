@@ -5,7 +5,7 @@
 #include "slamot/core/association/ChiSquare.h"
 
 namespace slamot {
-namespace {
+namespace chi_square_test {
 
 TEST(ChiSquare, TwoDegreesHaveAClosedForm) {
     for (const double p : {0.01, 0.5, 0.95, 0.99, 0.999999})
@@ -27,5 +27,5 @@ TEST(ChiSquare, GatesOfPairsHaveTwoDegreesEach) {
     EXPECT_NEAR(gates(1), 5.991, 5e-4);
 }
 
-}  // namespace
+}  // namespace chi_square_test
 }  // namespace slamot

@@ -7,7 +7,7 @@
 #include "slamot/core/association/DecidedPairs.h"
 
 namespace slamot {
-namespace {
+namespace decided_pairs_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -119,5 +119,5 @@ TEST(DecidedPairs, TwoThatFitAnotherPairOfObjectsAsWellDoNot) {
     EXPECT_THAT(half.decided({0, 2}, 0.6), ElementsAre(2, 0));
 }
 
-}  // namespace
+}  // namespace decided_pairs_test
 }  // namespace slamot

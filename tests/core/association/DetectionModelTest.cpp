@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace detection_model_test {
 
 using testing::HasSubstr;
 
@@ -45,5 +45,5 @@ TEST(DetectionModel, RefusesWhatNeverLetsGo) {
     EXPECT_EQ(logPairRatios(problem, {{0.0}, {0.1}, 1})[0], -std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace detection_model_test
 }  // namespace slamot

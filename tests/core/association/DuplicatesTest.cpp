@@ -9,7 +9,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace duplicates_test {
 
 /// 12 landmarks in a row 10 m ahead, a noisy detection of each, and some that come from none of them.
 test::PairScene row(std::uint64_t seed, int clutter) {
@@ -57,5 +57,5 @@ TEST(Duplicates, WithoutClutterTheSearchEndsByItself) {
     }
 }
 
-}  // namespace
+}  // namespace duplicates_test
 }  // namespace slamot

@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace gated_pairs_test {
 
 /// Landmarks strewn over a disk of 12 m and detections likewise, some of them near a landmark.
 test::PairScene strewn(std::uint64_t seed, Consistency consistency) {
@@ -100,5 +100,5 @@ TEST(GatedPairs, AcrossTheTurnOfTheBearing) {
     EXPECT_EQ(scene.gated(gates).problem.candidates(), 4);
 }
 
-}  // namespace
+}  // namespace gated_pairs_test
 }  // namespace slamot

@@ -6,7 +6,7 @@
 #include "slamot/core/association/NearestNeighbour.h"
 
 namespace slamot {
-namespace {
+namespace global_nearest_neighbour_test {
 
 using testing::ElementsAre;
 
@@ -73,5 +73,5 @@ TEST(GlobalNearestNeighbour, ClutterAndMissesHaveTheirPrice) {
     EXPECT_THAT(globalNearestNeighbour(problem, {{0.0}, {0.099}, 1}).objects(problem), ElementsAre(-1));
 }
 
-}  // namespace
+}  // namespace global_nearest_neighbour_test
 }  // namespace slamot

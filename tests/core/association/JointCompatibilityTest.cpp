@@ -8,7 +8,7 @@
 #include "slamot/core/association/SequentialCompatibility.h"
 
 namespace slamot {
-namespace {
+namespace joint_compatibility_test {
 
 constexpr int unlimited = std::numeric_limits<int>::max();
 
@@ -137,5 +137,5 @@ TEST(JointCompatibility, NothingToPair) {
     EXPECT_EQ(found.nodes, 0);
 }
 
-}  // namespace
+}  // namespace joint_compatibility_test
 }  // namespace slamot

@@ -5,7 +5,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace joint_innovations_test {
 
 TEST(InnovationFactorTest, TheLastPairGivenTheOthersIsASchurComplement) {
     RandomStream random(62, RandomPurpose::test);
@@ -43,5 +43,5 @@ TEST(InnovationFactorTest, TheLastPairGivenTheOthersIsASchurComplement) {
     }
 }
 
-}  // namespace
+}  // namespace joint_innovations_test
 }  // namespace slamot

@@ -15,7 +15,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace landmark_index_test {
 
 using testing::ElementsAre;
 
@@ -155,5 +155,5 @@ TEST(LandmarkIndex, MissesNothingThatAPoseWithinItsBoundsSees) {
     EXPECT_LT(found_total, 400u * 60u);
 }
 
-}  // namespace
+}  // namespace landmark_index_test
 }  // namespace slamot

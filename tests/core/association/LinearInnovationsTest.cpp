@@ -9,7 +9,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace linear_innovations_test {
 
 template <class Bank>
 class LinearInnovationsOf : public testing::Test {};
@@ -59,5 +59,5 @@ TYPED_TEST(LinearInnovationsOf, AreThoseOfTheUpdate) {
     EXPECT_GT(std::abs(S(0, 4)), 1e-4);  // pairs do depend on one another
 }
 
-}  // namespace
+}  // namespace linear_innovations_test
 }  // namespace slamot

@@ -10,7 +10,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace merged_detection_test {
 
 using test::near;
 using test::randomCovariance;
@@ -153,5 +153,5 @@ TEST_F(Mixtures, TurnWithTheirFrame) {
     }
 }
 
-}  // namespace
+}  // namespace merged_detection_test
 }  // namespace slamot

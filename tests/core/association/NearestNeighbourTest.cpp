@@ -4,7 +4,7 @@
 #include "slamot/core/association/NearestNeighbour.h"
 
 namespace slamot {
-namespace {
+namespace nearest_neighbour_test {
 
 using testing::ElementsAre;
 
@@ -39,5 +39,5 @@ TEST(NearestNeighbour, NothingToPair) {
     EXPECT_TRUE(nearestNeighbour({0, 0, {}}).candidate_of_detection.empty());
 }
 
-}  // namespace
+}  // namespace nearest_neighbour_test
 }  // namespace slamot

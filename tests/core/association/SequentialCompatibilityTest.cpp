@@ -5,7 +5,7 @@
 #include "slamot/core/association/SequentialCompatibility.h"
 
 namespace slamot {
-namespace {
+namespace sequential_compatibility_test {
 
 using testing::ElementsAre;
 
@@ -104,5 +104,5 @@ TEST(InnovationFactor, RefusesWhatIsNotPositiveDefinite) {
     EXPECT_EQ(factor.nis(), nis);
 }
 
-}  // namespace
+}  // namespace sequential_compatibility_test
 }  // namespace slamot

@@ -13,7 +13,7 @@
 #include "slamot/core/association/SequentialCompatibility.h"
 
 namespace slamot {
-namespace {
+namespace turned_worlds_test {
 
 test::PairScene turned(double heading, Consistency consistency) {
     // Pairs of landmarks 0.4 to 0.6 m apart; a robot turned by 0.05 rad and shifted by 0.1 m from where it
@@ -111,5 +111,5 @@ TEST_P(TurnedWorlds, GiveTheSameAnswers) {
 
 INSTANTIATE_TEST_SUITE_P(Both, TurnedWorlds, testing::Values(Consistency::classic, Consistency::invariant));
 
-}  // namespace
+}  // namespace turned_worlds_test
 }  // namespace slamot

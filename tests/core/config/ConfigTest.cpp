@@ -10,7 +10,7 @@
 #include "support/TemporaryFolder.h"
 
 namespace slamot {
-namespace {
+namespace config_test {
 
 using test::messageOf;
 using testing::AllOf;
@@ -213,5 +213,5 @@ TEST(ConfigTest, UnknownSectionsAreRefusedWithTheNearest) {
     EXPECT_NO_THROW(requireKnownSections(config, {"run", "ekf_slamod"}, {"sensors."}));
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace slamot

@@ -14,7 +14,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace parameters_test {
 
 enum class Colour { red, green };
 
@@ -225,5 +225,5 @@ TEST(ParametersTest, NearestWordIsNearEnough) {
     EXPECT_EQ(nearestWord("x", {}), std::nullopt);
 }
 
-}  // namespace
+}  // namespace parameters_test
 }  // namespace slamot

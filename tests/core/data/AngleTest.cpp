@@ -7,7 +7,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace angle_test {
 
 TEST(AngleTest, WrapsIntoTheHalfOpenInterval) {
     EXPECT_EQ(wrapAngle(0.0), 0);
@@ -62,5 +62,5 @@ TEST(AngleTest, DegreesAndRadians) {
     EXPECT_NEAR(radians(-30), -pi / 6, 1e-15);
 }
 
-}  // namespace
+}  // namespace angle_test
 }  // namespace slamot

@@ -7,7 +7,7 @@
 #include "slamot/core/data/Ellipse.h"
 
 namespace slamot {
-namespace {
+namespace ellipse_test {
 
 struct Gaussian {
     Vector2 mean = Vector2::Zero();
@@ -55,5 +55,5 @@ TEST(Ellipse, notFiniteIsEmptyAndSlightlyNegativeIsFlat) {
     EXPECT_TRUE(g.outline(8).empty());
 }
 
-}  // namespace
+}  // namespace ellipse_test
 }  // namespace slamot

@@ -6,7 +6,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace odometry_test {
 
 using test::near;
 
@@ -87,5 +87,5 @@ TEST(OdometryTest, RefusesCutsOutside) {
         EXPECT_THROW(split(entry, inside(entry, cut)), std::invalid_argument) << cut;
 }
 
-}  // namespace
+}  // namespace odometry_test
 }  // namespace slamot

@@ -4,7 +4,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace pose2_test {
 
 using test::near;
 
@@ -51,5 +51,5 @@ TEST(Pose2Test, QuarterTurnIsTheDerivativeOfRotation) {
         near((rotation(0.4 + h) - rotation(0.4 - h)) / (2 * h) * p, quarterTurn() * rotation(0.4) * p, 1e-9));
 }
 
-}  // namespace
+}  // namespace pose2_test
 }  // namespace slamot

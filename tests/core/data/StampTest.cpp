@@ -6,7 +6,7 @@
 #include "slamot/core/data/Stamp.h"
 
 namespace slamot {
-namespace {
+namespace stamp_test {
 
 TEST(StampTest, PrintsSevenDecimalsFromTheTicks) {
     EXPECT_EQ(toText(Stamp{0}), "0.0000000");
@@ -58,5 +58,5 @@ TEST(StampTest, SecondsAndStampsAgree) {
     EXPECT_TRUE(Stamp{1} == Stamp{1} && Stamp{1} != Stamp{2});
 }
 
-}  // namespace
+}  // namespace stamp_test
 }  // namespace slamot

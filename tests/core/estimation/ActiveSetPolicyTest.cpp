@@ -3,7 +3,7 @@
 #include "slamot/core/estimation/ActiveSetPolicy.h"
 
 namespace slamot {
-namespace {
+namespace active_set_policy_test {
 
 RangeBearingDetection sightOf(ObjectKind kind, double range, int sensor = 0) {
     RangeBearingDetection out;
@@ -172,5 +172,5 @@ TEST(ActiveSetPolicyTest, CommitsWhenThereIsMuchToGain) {
     EXPECT_FALSE(policy.worthCommit(240, 90, 68, 0)) << "movers stay and count";
 }
 
-}  // namespace
+}  // namespace active_set_policy_test
 }  // namespace slamot

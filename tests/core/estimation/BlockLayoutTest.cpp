@@ -5,7 +5,7 @@
 #include "slamot/core/estimation/BlockLayout.h"
 
 namespace slamot {
-namespace {
+namespace block_layout_test {
 
 TEST(BlockLayoutTest, OffsetsFollowTheOrderOfAddition) {
     BlockLayout layout;
@@ -43,5 +43,5 @@ TEST(BlockLayoutTest, RemovedBlocksLeaveNothingBehind) {
     EXPECT_FALSE(layout.at(999).put_away);
 }
 
-}  // namespace
+}  // namespace block_layout_test
 }  // namespace slamot

@@ -15,7 +15,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace compressed_joint_bank_test {
 
 using test::near;
 using test::randomCovariance;
@@ -395,5 +395,5 @@ INSTANTIATE_TEST_SUITE_P(All, CompressedJointBankTest,
                                     (each.param.background ? "InTheBackground" : "");
                          });
 
-}  // namespace
+}  // namespace compressed_joint_bank_test
 }  // namespace slamot

@@ -12,7 +12,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace decoupled_imm_test {
 
 using test::immModes;
 using test::ImmScene;
@@ -263,5 +263,5 @@ TEST_F(UnsureRobot, MoversComeAndGo) {
     EXPECT_EQ(tracks[1].source.value, 2);
 }
 
-}  // namespace
+}  // namespace decoupled_imm_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "slamot/core/estimation/RelativeGaussian.h"
 
 namespace slamot {
-namespace {
+namespace definiteness_of_long_runs_test {
 
 class DefinitenessOfLongRuns : public testing::TestWithParam<Consistency> {};
 
@@ -40,5 +40,5 @@ INSTANTIATE_TEST_SUITE_P(Cores, DefinitenessOfLongRuns,
                              return std::string(core.param == Consistency::classic ? "classic" : "invariant");
                          });
 
-}  // namespace
+}  // namespace definiteness_of_long_runs_test
 }  // namespace slamot

@@ -5,7 +5,7 @@
 #include "slamot/core/estimation/Definiteness.h"
 
 namespace slamot {
-namespace {
+namespace definiteness_test {
 
 constexpr double tolerance = 1e-9;
 
@@ -56,5 +56,5 @@ TEST(DefinitenessTest, WhatIsNotFiniteIsNot) {
     }
 }
 
-}  // namespace
+}  // namespace definiteness_test
 }  // namespace slamot

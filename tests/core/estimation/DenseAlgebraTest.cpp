@@ -7,7 +7,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace dense_algebra_test {
 
 using test::near;
 using test::randomMatrix;
@@ -78,5 +78,5 @@ TEST(DenseAlgebraTest, ProductsAreEigens) {
     }
 }
 
-}  // namespace
+}  // namespace dense_algebra_test
 }  // namespace slamot

@@ -11,7 +11,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace dense_joint_bank_test {
 
 using test::FullMatrixState;
 using test::near;
@@ -276,5 +276,5 @@ TEST(DenseJointBankTest, HeadingIsWrappedByUpdates) {
     EXPECT_NEAR(state.mode(0).mean(robot_block)(2), 4 - 2 * pi, 1e-8);  // gain 1 / (1 + 1e-9)
 }
 
-}  // namespace
+}  // namespace dense_joint_bank_test
 }  // namespace slamot

@@ -6,7 +6,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace far_group_test {
 
 using test::near;
 using test::randomMatrix;
@@ -67,5 +67,5 @@ TEST(FarGroupTest, MoreDirectionsChangeNothingYet) {
     EXPECT_EQ(group.part(1).V.bottomRows(2), Eigen::MatrixXd::Zero(2, 4));
 }
 
-}  // namespace
+}  // namespace far_group_test
 }  // namespace slamot

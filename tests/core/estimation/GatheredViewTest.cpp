@@ -10,7 +10,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace gathered_view_test {
 
 using test::near;
 using test::randomCovariance;
@@ -93,5 +93,5 @@ TEST(GatheredViewTest, KnowsNothingElse) {
     EXPECT_THROW(view.jointCovariance({all[1], all[0]}), std::out_of_range);
 }
 
-}  // namespace
+}  // namespace gathered_view_test
 }  // namespace slamot

@@ -19,7 +19,7 @@
 #include "slamot/core/estimation/Definiteness.h"
 
 namespace slamot {
-namespace {
+namespace imm_engine_test {
 
 using test::CommitLog;
 using test::Difference;
@@ -207,5 +207,5 @@ INSTANTIATE_TEST_SUITE_P(All, ImmCommits,
                          testing::Combine(both_cores, testing::Values(ImmForm::exact), two_and_three),
                          nameOf);
 
-}  // namespace
+}  // namespace imm_engine_test
 }  // namespace slamot

@@ -19,7 +19,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace joint_engine_test {
 
 /// start_std: of the start's x and y [m].
 JointFilter filterWith(JointEngine::Kind kind, Consistency consistency, bool background = false,
@@ -155,5 +155,5 @@ INSTANTIATE_TEST_SUITE_P(
                (std::get<1>(each.param) ? "InTheBackground" : "");
     });
 
-}  // namespace
+}  // namespace joint_engine_test
 }  // namespace slamot

@@ -13,7 +13,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace joint_imm_test {
 
 using test::FullMatrixImm;
 using test::immModes;
@@ -267,5 +267,5 @@ TEST(JointImmTest, FormsByTheNumberOfMovers) {
     EXPECT_EQ(scalable.tracks().at(0).mode_probabilities, (std::vector<double>{0.5, 0.5}));
 }
 
-}  // namespace
+}  // namespace joint_imm_test
 }  // namespace slamot

@@ -9,7 +9,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace linear_measurement_test {
 
 using test::randomCovariance;
 using test::randomMatrix;
@@ -57,5 +57,5 @@ TEST(BatchLikelihoodTest, ConditionalAndMarginalDensities) {
     EXPECT_EQ(bank.mode(0).update({}).logConditional(0, 0), 0);
 }
 
-}  // namespace
+}  // namespace linear_measurement_test
 }  // namespace slamot

@@ -10,7 +10,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace mixing_test {
 
 using test::near;
 using test::randomCovariance;
@@ -177,5 +177,5 @@ INSTANTIATE_TEST_SUITE_P(Both, Mixing, testing::Values(Consistency::classic, Con
                              return each.param == Consistency::classic ? "classic" : "invariant";
                          });
 
-}  // namespace
+}  // namespace mixing_test
 }  // namespace slamot

@@ -16,7 +16,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace modal_state_test {
 
 using test::near;
 
@@ -236,5 +236,5 @@ TEST(ModalStateTest, WhatWasWeighedIsNoOutlier) {
     });
 }
 
-}  // namespace
+}  // namespace modal_state_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace mode_chain_test {
 
 using test::immModes;
 using test::messageOf;
@@ -100,5 +100,5 @@ TEST(ImmParametersTest, ModesAreReadAndWritten) {
     EXPECT_FALSE(imm.transition);
 }
 
-}  // namespace
+}  // namespace mode_chain_test
 }  // namespace slamot

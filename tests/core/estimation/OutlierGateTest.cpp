@@ -6,7 +6,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace outlier_gate_test {
 
 using test::near;
 
@@ -66,5 +66,5 @@ TEST(OutlierGateTest, TheBestModeJudges) {
     }
 }
 
-}  // namespace
+}  // namespace outlier_gate_test
 }  // namespace slamot

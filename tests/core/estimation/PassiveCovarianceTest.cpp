@@ -7,7 +7,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace passive_covariance_test {
 
 using test::near;
 using test::randomMatrix;
@@ -142,5 +142,5 @@ TEST_F(PassiveCovarianceTest, BlocksGrowAsLandmarksJoin) {
     EXPECT_EQ(covariance.longestStd(), 2);
 }
 
-}  // namespace
+}  // namespace passive_covariance_test
 }  // namespace slamot

@@ -5,7 +5,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace passive_map_test {
 
 using test::near;
 using test::randomCovariance;
@@ -52,5 +52,5 @@ TEST(PassiveMapTest, AGroupThatALandmarkWasRemovedFromIsMadeAnew) {
     EXPECT_TRUE(near(U_c.transpose() * U_r + taken.root * gamma, commit.covariance.block<2, 2>(0, 6), 1e-9));
 }
 
-}  // namespace
+}  // namespace passive_map_test
 }  // namespace slamot

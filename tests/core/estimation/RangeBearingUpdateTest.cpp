@@ -11,7 +11,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace range_bearing_update_test {
 
 using test::near;
 
@@ -163,5 +163,5 @@ TEST(RangeBearingUpdateTest, RefusesAnIndefiniteS) {
     EXPECT_THROW(linearise(state, 1, detection, {}, Consistency::classic), std::domain_error);
 }
 
-}  // namespace
+}  // namespace range_bearing_update_test
 }  // namespace slamot

@@ -1,14 +1,13 @@
-#include "slamot/core/estimation/RelativeGaussian.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "slamot/core/estimation/RelativeGaussian.h"
 #include "slamot/core/models/RangeBearing.h"
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace relative_gaussian_test {
 
 using test::near;
 
@@ -75,5 +74,5 @@ TEST(RelativeGaussianTest, TheWorldSeesAMoverTurnedAndShiftedByTheRobotsPose) {
     }
 }
 
-}  // namespace
+}  // namespace relative_gaussian_test
 }  // namespace slamot

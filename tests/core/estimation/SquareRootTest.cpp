@@ -5,7 +5,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace square_root_test {
 
 using test::near;
 
@@ -50,5 +50,5 @@ TEST(SquareRootTest, ASmallRestInTheMiddleTakesNothingWithIt) {
     EXPECT_EQ(root.unknown().sum(), 2);
 }
 
-}  // namespace
+}  // namespace square_root_test
 }  // namespace slamot

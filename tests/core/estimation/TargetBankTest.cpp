@@ -6,15 +6,15 @@
 
 #include "ImmScenes.h"
 #include "slamot/core/estimation/DenseJointBank.h"
-#include "slamot/core/filter/JointFilter.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 #include "slamot/core/estimation/RobotTargetView.h"
 #include "slamot/core/estimation/TargetBank.h"
+#include "slamot/core/filter/JointFilter.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace target_bank_test {
 
 using test::immModes;
 using test::ImmScene;
@@ -303,5 +303,5 @@ TEST(BankedImmTest, GoesOnWhereTheExactFormStands) {
     }
 }
 
-}  // namespace
+}  // namespace target_bank_test
 }  // namespace slamot

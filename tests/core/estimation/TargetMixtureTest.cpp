@@ -1,10 +1,9 @@
 #include "slamot/core/estimation/TargetMixture.h"
-
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace target_mixture_test {
 
 using test::near;
 
@@ -51,5 +50,5 @@ TEST(TargetMixtureTest, MixingByHand) {
     EXPECT_TRUE(left.modes[1].mean.allFinite());
 }
 
-}  // namespace
+}  // namespace target_mixture_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace turning_basis_test {
 
 using test::near;
 using test::randomMatrix;
@@ -162,5 +162,5 @@ TEST(TurningBasisTest, BeyondABasisOnlyWhatIsWorthIt) {
     EXPECT_EQ(nothing.weights, Eigen::MatrixXd(3, 0));
 }
 
-}  // namespace
+}  // namespace turning_basis_test
 }  // namespace slamot

@@ -43,7 +43,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 #endif
 
 namespace slamot {
-namespace {
+namespace allocation_test {
 
 template <class Action>
 int allocationsOf(const Action& action) {
@@ -114,5 +114,5 @@ INSTANTIATE_TEST_SUITE_P(All, Allocations,
                                             ::testing::Values(JointEngine::Kind::dense,
                                                               JointEngine::Kind::compressed)));
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace slamot

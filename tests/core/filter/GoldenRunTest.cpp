@@ -12,7 +12,7 @@
 #include "slamot/core/filter/JointFilter.h"
 
 namespace slamot {
-namespace {
+namespace golden_run_test {
 
 using Row = std::vector<double>;
 
@@ -201,5 +201,5 @@ TEST(GoldenImm, MatchesTheTraceWhateverTheOrderOfTheModes) {
     }
 }
 
-}  // namespace
+}  // namespace golden_run_test
 }  // namespace slamot

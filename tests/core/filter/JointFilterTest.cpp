@@ -10,7 +10,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace joint_filter_test {
 
 using test::detectionsAt;
 using test::near;
@@ -379,5 +379,5 @@ TEST(JointFilterParametersTest, ScheduleIsReadAndWritten) {
     EXPECT_TRUE(parameters.target_schedule.empty());
 }
 
-}  // namespace
+}  // namespace joint_filter_test
 }  // namespace slamot

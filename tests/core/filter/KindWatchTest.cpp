@@ -10,7 +10,7 @@
 #include "slamot/core/filter/KindWatch.h"
 
 namespace slamot {
-namespace {
+namespace kind_watch_test {
 
 using test::HiddenWorld;
 using test::StandingRobot;
@@ -252,5 +252,5 @@ TEST(MixedRunsTest, WhatStopsBecomesALandmarkAndWhatStartsATrack) {
     }
 }
 
-}  // namespace
+}  // namespace kind_watch_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace modal_belief_test {
 
 using test::near;
 
@@ -103,5 +103,5 @@ TEST(ModalBeliefTest, StartForgetsEverything) {
     EXPECT_TRUE(is<JointImm>(belief)) << "old movers do not count";
 }
 
-}  // namespace
+}  // namespace modal_belief_test
 }  // namespace slamot

@@ -1,12 +1,11 @@
-#include "slamot/core/filter/ObjectAssociation.h"
-
 #include <gtest/gtest.h>
 
 #include "slamot/core/filter/JointFilter.h"
+#include "slamot/core/filter/ObjectAssociation.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace object_association_test {
 
 using test::detectionsAt;
 using test::seen;
@@ -17,9 +16,9 @@ std::size_t landmarksAfterTwentyLooks(double stated_range, double stated_view) {
     filter.start({}, {});
     for (int k = 0; k < 20; ++k) {
         if (k > 0) filter.predict(test::odometry(0.1 * (k - 1), 0.1 * k, {}));
-        DetectionSet set = detectionsAt(
-            0.1 * k, {seen({}, {8, 0}, ObjectKind::landmark, -1), seen({}, {-8, 0.1}, ObjectKind::landmark, -1),
-                      seen({}, {0, 3}, ObjectKind::landmark, -1)});
+        DetectionSet set = detectionsAt(0.1 * k, {seen({}, {8, 0}, ObjectKind::landmark, -1),
+                                                  seen({}, {-8, 0.1}, ObjectKind::landmark, -1),
+                                                  seen({}, {0, 3}, ObjectKind::landmark, -1)});
         for (RangeBearingSensor& sensor : std::get<RangeBearingSet>(set.measurements).sensors) {
             sensor.max_range = stated_range;
             sensor.field_of_view = stated_view;
@@ -35,5 +34,5 @@ TEST(ObjectAssociationTest, ReadingsBeyondTheStatedLimitsFindTheirLandmarks) {
     EXPECT_EQ(landmarksAfterTwentyLooks(20, pi / 2), 3u) << "field of view";
 }
 
-}  // namespace
+}  // namespace object_association_test
 }  // namespace slamot

@@ -5,7 +5,7 @@
 #include "slamot/core/filter/ObjectCatalogue.h"
 
 namespace slamot {
-namespace {
+namespace object_catalogue_test {
 
 ObjectLifeRecord life() {
     return {ObjectKind::landmark, Existence(LifeParameters{}), 0, {}};
@@ -97,5 +97,5 @@ TEST(ObjectCatalogueTest, CountsSightsAndLives) {
     EXPECT_EQ(objects.positions().size(), 0);
 }
 
-}  // namespace
+}  // namespace object_catalogue_test
 }  // namespace slamot

@@ -10,7 +10,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace object_life_test {
 
 using test::near;
 using test::StandingRobot;
@@ -365,5 +365,5 @@ TEST(ObjectLifeTest, TheOrderOfModesIsNoMatterToMoversThatHaveNoneYet) {
     EXPECT_NEAR(one.existence, other.existence, 1e-10);
 }
 
-}  // namespace
+}  // namespace object_life_test
 }  // namespace slamot

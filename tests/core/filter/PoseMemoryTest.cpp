@@ -15,7 +15,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace pose_memory_test {
 
 using test::near;
 
@@ -320,5 +320,5 @@ TEST(PoseMemoryTest, ARememberedPoseIsTheRobotInEveryModeAcrossPi) {
         }
 }
 
-}  // namespace
+}  // namespace pose_memory_test
 }  // namespace slamot

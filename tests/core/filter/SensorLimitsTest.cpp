@@ -3,7 +3,7 @@
 #include "slamot/core/filter/SensorLimits.h"
 
 namespace slamot {
-namespace {
+namespace sensor_limits_test {
 
 RangeBearingSet twoSensors(const std::vector<std::pair<int, double>>& ranges) {
     RangeBearingSet set;
@@ -47,5 +47,5 @@ TEST(SensorLimitsTest, TheOrderOfSensorsInASetIsNoMatter) {
     EXPECT_EQ(limitsOf(limits.completed(swapped)), (std::vector<double>{40, 3, 12}));
 }
 
-}  // namespace
+}  // namespace sensor_limits_test
 }  // namespace slamot

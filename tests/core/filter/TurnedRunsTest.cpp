@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace turned_runs_test {
 
 using test::HiddenWorld;
 using test::near;
@@ -96,5 +96,5 @@ INSTANTIATE_TEST_SUITE_P(
                                      MoverAssociation::jpda),
                      testing::Values(Consistency::classic, Consistency::invariant), testing::Bool()));
 
-}  // namespace
+}  // namespace turned_runs_test
 }  // namespace slamot

@@ -12,7 +12,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace unlabelled_runs_test {
 
 using test::HiddenWorld;
 using test::near;
@@ -203,5 +203,5 @@ INSTANTIATE_TEST_SUITE_P(All, UnlabelledRuns,
                                                                                      : "_invariant");
                          });
 
-}  // namespace
+}  // namespace unlabelled_runs_test
 }  // namespace slamot

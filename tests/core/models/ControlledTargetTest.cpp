@@ -1,13 +1,12 @@
-#include "slamot/core/models/ControlledTarget.h"
-
 #include <cmath>
 #include <vector>
 
+#include "slamot/core/models/ControlledTarget.h"
 #include "support/AutoDiff.h"
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace controlled_target_test {
 
 using test::jacobian;
 using test::near;
@@ -64,7 +63,8 @@ TEST(ControlledTargetTest, PrintedAndExactPathByHand) {
     EXPECT_TRUE(near(predictControlled(p, Vector3(1, 1, 0), 1).pose, Vector3(1, 3, pi / 2), 1e-15));
     // The arc has radius v / w = 4 / pi.
     p.path = ControlledPath::arc;
-    EXPECT_TRUE(near(predictControlled(p, Vector3(1, 1, 0), 1).pose, Vector3(1 + 4 / pi, 1 + 4 / pi, pi / 2), 1e-15));
+    EXPECT_TRUE(
+        near(predictControlled(p, Vector3(1, 1, 0), 1).pose, Vector3(1 + 4 / pi, 1 + 4 / pi, pi / 2), 1e-15));
 }
 
 TEST(ControlledTargetTest, NoiseThatHoldsForAnIntervalAddsUp) {
@@ -99,8 +99,9 @@ TEST(ControlledTargetTest, StateHasVelocityAndCentripetalAcceleration) {
     const ControlledState state = controlledState(p, y.head<3>());
     EXPECT_TRUE(near(state.mean, f(y), 1e-15));
     EXPECT_TRUE(near(state.G, J.leftCols<3>(), 1e-15));
-    EXPECT_TRUE(near(state.Q, J.rightCols<2>() * Vector2(0.01, 0.04).asDiagonal() * J.rightCols<2>().transpose(), 1e-15));
+    EXPECT_TRUE(near(
+        state.Q, J.rightCols<2>() * Vector2(0.01, 0.04).asDiagonal() * J.rightCols<2>().transpose(), 1e-15));
 }
 
-}  // namespace
+}  // namespace controlled_target_test
 }  // namespace slamot

@@ -11,7 +11,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace range_bearing_test {
 
 using test::jacobian;
 using test::near;
@@ -126,5 +126,5 @@ TEST(RangeBearingTest, ResidualTakesTheShortWayRound) {
     EXPECT_NEAR(residual.y(), -0.2, 1e-14);
 }
 
-}  // namespace
+}  // namespace range_bearing_test
 }  // namespace slamot

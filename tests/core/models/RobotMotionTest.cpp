@@ -9,7 +9,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace robot_motion_test {
 
 using test::jacobian;
 using test::near;
@@ -287,5 +287,5 @@ TEST(RobotMotionTest, NamesTheFieldALogLacks) {
     EXPECT_EQ(missingField(parametersOf(RobotMotionModel::steered), velocityEntry({})), "");
 }
 
-}  // namespace
+}  // namespace robot_motion_test
 }  // namespace slamot

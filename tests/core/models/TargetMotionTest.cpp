@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace target_motion_test {
 
 using test::jacobian;
 using test::near;
@@ -166,5 +166,5 @@ TEST(TargetMotionTest, UnicycleNoiseLiesAlongTheHeading) {
     EXPECT_NEAR(Q(4, 4), 0, 1e-10);
 }
 
-}  // namespace
+}  // namespace target_motion_test
 }  // namespace slamot

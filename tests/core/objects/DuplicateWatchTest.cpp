@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace duplicate_watch_test {
 
 using Pairs = std::vector<std::pair<BlockId, BlockId>>;
 
@@ -120,5 +120,5 @@ TEST(DuplicateWatchTest, RefusesWhatIsNoProbability) {
               "DuplicateWatch: merge probability nan, expected one within (0, 1)");
 }
 
-}  // namespace
+}  // namespace duplicate_watch_test
 }  // namespace slamot

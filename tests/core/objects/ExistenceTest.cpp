@@ -7,7 +7,7 @@
 #include "slamot/core/objects/Existence.h"
 
 namespace slamot {
-namespace {
+namespace existence_test {
 
 using testing::ElementsAre;
 
@@ -178,5 +178,5 @@ TEST(ExistenceTest, ParametersAreDescribed) {
     EXPECT_EQ(p.clutter_per_scan, 12.5);
 }
 
-}  // namespace
+}  // namespace existence_test
 }  // namespace slamot

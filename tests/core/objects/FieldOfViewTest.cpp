@@ -3,7 +3,7 @@
 #include "slamot/core/objects/FieldOfView.h"
 
 namespace slamot {
-namespace {
+namespace field_of_view_test {
 
 /// Expected at [range bearing] with standard deviations 0.5 m and 0.1 rad.
 ExpectedDetection at(double range, double bearing) {
@@ -86,5 +86,5 @@ TEST(FieldOfViewTest, ASensorOfUnknownKindReportsAll) {
         }
 }
 
-}  // namespace
+}  // namespace field_of_view_test
 }  // namespace slamot

@@ -3,7 +3,7 @@
 #include "slamot/core/objects/LostTracks.h"
 
 namespace slamot {
-namespace {
+namespace lost_tracks_test {
 
 constexpr double t0 = 100;
 
@@ -120,5 +120,5 @@ TEST(LostTracksTest, OldOnesAreForgotten) {
     EXPECT_EQ(exact.continuedBy(state(0, 0, 0, 0), uncertain(0.1, 0.1)), std::nullopt);
 }
 
-}  // namespace
+}  // namespace lost_tracks_test
 }  // namespace slamot

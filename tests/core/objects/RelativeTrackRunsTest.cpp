@@ -11,7 +11,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace relative_track_runs_test {
 
 constexpr double dt = 0.2, range_std = 0.1, bearing_std = radians(1.0);
 const TargetModel model{TargetModelKind::cv, 0.5, 0.1};
@@ -167,5 +167,5 @@ TEST(RelativeTrackRunsTest, DecisionsAreAsOftenWrongAsTheySay) {
     }
 }
 
-}  // namespace
+}  // namespace relative_track_runs_test
 }  // namespace slamot

@@ -13,7 +13,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace relative_track_test {
 
 using test::jacobian;
 using test::near;
@@ -285,5 +285,5 @@ TEST(RelativeTrackTest, NoEvidenceSettlesTheMotionForEver) {
     EXPECT_GT(track.movingProbability(), 0.999);
 }
 
-}  // namespace
+}  // namespace relative_track_test
 }  // namespace slamot

@@ -10,7 +10,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace tentative_objects_in_clutter_test {
 
 constexpr double dt = 0.1, clutter = 10;
 const TargetModel model{TargetModelKind::cv, 0.5, 0.1};
@@ -151,5 +151,5 @@ TEST(TentativeObjectsInClutterTest, ObjectsAreConfirmedWithinAFewScans) {
     }
 }
 
-}  // namespace
+}  // namespace tentative_objects_in_clutter_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace tentative_objects_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 const TargetModel model{TargetModelKind::cv, 0.5, 0.1};
@@ -244,5 +244,5 @@ TEST(TentativeObjectsTest, OneDetectionForOneObject) {
     EXPECT_NEAR(robot.objects.objects()[1].track.asLandmark().position().x(), 5.275, 1e-9);
 }
 
-}  // namespace
+}  // namespace tentative_objects_test
 }  // namespace slamot

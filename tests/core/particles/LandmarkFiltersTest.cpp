@@ -1,12 +1,11 @@
-#include "slamot/core/particles/LandmarkFilters.h"
-
 #include <Eigen/LU>
 
+#include "slamot/core/particles/LandmarkFilters.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace landmark_filters_test {
 
 using test::detectionsAt;
 using test::seen;
@@ -63,7 +62,8 @@ TEST(LandmarkFiltersTest, NamedLandmarksWeighByTheirInnovationAlone) {
     Particle particle;
     EXPECT_EQ(particle.take(scanAt(0, {seen({}, {5, 0}, ObjectKind::landmark, 7)})), 0);
     EXPECT_EQ(particle.records.at(0).outcome, Outcome::initiated);
-    // Covariance at first sight: diag(0.01, 25 * 0.0004) = 0.01 I. Again, 0.1 m farther: S = diag(0.02, 0.0008).
+    // Covariance at first sight: diag(0.01, 25 * 0.0004) = 0.01 I. Again, 0.1 m farther: S = diag(0.02,
+    // 0.0008).
     const double log_likelihood = particle.take(scanAt(1, {seen({}, {5.1, 0}, ObjectKind::landmark, 7)}));
     EXPECT_NEAR(log_likelihood, -0.5 * 0.01 / 0.02 - 0.5 * std::log(0.02 * 0.0008) - std::log(2 * pi), 1e-12);
     const LandmarkFilter landmark = particle.all().at(0);
@@ -77,7 +77,8 @@ TEST(LandmarkFiltersTest, NamedLandmarksWeighByTheirInnovationAlone) {
 
 TEST(LandmarkFiltersTest, TheSameNewNameTwiceInABatchStartsOneLandmark) {
     Particle particle;
-    particle.take(scanAt(0, {seen({}, {5, 0}, ObjectKind::landmark, 7), seen({}, {6, 0}, ObjectKind::landmark, 7)}));
+    particle.take(
+        scanAt(0, {seen({}, {5, 0}, ObjectKind::landmark, 7), seen({}, {6, 0}, ObjectKind::landmark, 7)}));
     EXPECT_EQ(particle.all().size(), 1u);
     particle.take(scanAt(1, {seen({}, {5, 0}, ObjectKind::landmark, 7)}));
     EXPECT_EQ(particle.all().size(), 1u);
@@ -135,8 +136,8 @@ TEST(LandmarkFiltersTest, OneDetectionForEachLandmarkAndTheLikeliestPairFirst) {
         Particle particle(p);
         for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5, 1})}));
         ASSERT_EQ(particle.all().size(), 2u);
-        // The second detection lies half-way, outside the gates: it starts nothing, since it may be of the second
-        // landmark, which is not seen otherwise.
+        // The second detection lies half-way, outside the gates: it starts nothing, since it may be of the
+        // second landmark, which is not seen otherwise.
         particle.take(scanAt(6, {nameless({5.02, 0}), nameless({5.0, 0.5})}));
         EXPECT_EQ(particle.records.at(0).landmark, particle.all().at(0).id);
         EXPECT_EQ(particle.all().size(), 2u) << static_cast<int>(method);
@@ -201,5 +202,5 @@ TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {
     EXPECT_EQ(particle.map.features().bytes()[0] * 5, particle.map.features().bytes()[1] * 2);
 }
 
-}  // namespace
+}  // namespace landmark_filters_test
 }  // namespace slamot

@@ -1,15 +1,14 @@
-#include "slamot/core/particles/ParticleFilter.h"
-
 #include <cmath>
 #include <string>
 
 #include "slamot/core/filter/JointFilter.h"
 #include "slamot/core/particles/LandmarkFilters.h"
+#include "slamot/core/particles/ParticleFilter.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace particle_filter_test {
 
 using Filter = ParticleFilter<LandmarkFilters>;
 
@@ -45,7 +44,8 @@ void drive(const Take& take) {
     const std::vector<Vector2> landmarks{{4, 0}, {0, 5}, {-3, 1}, {2, 4}, {-2, -3}};
     Pose2 truth;
     for (int k = 1; k <= 20; ++k) {
-        const Pose2 step{0.3 + 0.01 * random.normal(), 0.005 * random.normal(), 0.15 + 0.02 * random.normal()};
+        const Pose2 step{0.3 + 0.01 * random.normal(), 0.005 * random.normal(),
+                         0.15 + 0.02 * random.normal()};
         truth = truth * step;
         std::vector<RangeBearingDetection> detections;
         for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -78,11 +78,11 @@ TEST_P(Forms, ManyParticlesHaveTheMomentsOfTheJointFilter) {
     const Vector3 deviation = b.covariance.diagonal().cwiseSqrt();
     Vector3 d = a.mean.vector() - b.mean.vector();
     d.z() = wrapAngle(d.z());
-    // The paths that are left are far fewer than particles: those of the first steps, which the map hangs on, come
-    // from about one in a hundred. Two tenths of a deviation are 4 standard errors of 400 of them.
-    EXPECT_LT((d.array() / deviation.array()).abs().maxCoeff(), 0.2) << d.transpose() << "\n" << deviation.transpose();
-    for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(std::sqrt(a.covariance(i, i)) / deviation(i), 1, 0.2) << i;
+    // The paths that are left are far fewer than particles: those of the first steps, which the map hangs on,
+    // come from about one in a hundred. Two tenths of a deviation are 4 standard errors of 400 of them.
+    EXPECT_LT((d.array() / deviation.array()).abs().maxCoeff(), 0.2) << d.transpose() << "\n"
+                                                                     << deviation.transpose();
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(a.covariance(i, i)) / deviation(i), 1, 0.2) << i;
 
     const auto landmarks = particles.landmarks();
     const auto expected = joint.landmarks();
@@ -91,7 +91,9 @@ TEST_P(Forms, ManyParticlesHaveTheMomentsOfTheJointFilter) {
         EXPECT_EQ(landmarks[i].source, expected[i].source);
         const Vector2 spread = expected[i].covariance.diagonal().cwiseSqrt();
         EXPECT_LT(((landmarks[i].mean - expected[i].mean).array() / spread.array()).abs().maxCoeff(), 0.3);
-        EXPECT_LT((landmarks[i].covariance.diagonal().cwiseSqrt().array() / spread.array() - 1).abs().maxCoeff(), 0.3);
+        EXPECT_LT(
+            (landmarks[i].covariance.diagonal().cwiseSqrt().array() / spread.array() - 1).abs().maxCoeff(),
+            0.3);
     }
 }
 
@@ -147,11 +149,11 @@ TEST_P(Forms, ParticlesMakeUpTheRobot) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Forms,
-    testing::Values(
-        Form{"motion", PoseProposal::motion, GaussianTransform::linear, Resampling::systematic},
-        Form{"linear", PoseProposal::refined, GaussianTransform::linear, Resampling::systematic},
-        Form{"residual", PoseProposal::refined, GaussianTransform::linear, Resampling::residual},
-        Form{"unscented", PoseProposal::refined, GaussianTransform::unscented, Resampling::systematic}),
+    testing::Values(Form{"motion", PoseProposal::motion, GaussianTransform::linear, Resampling::systematic},
+                    Form{"linear", PoseProposal::refined, GaussianTransform::linear, Resampling::systematic},
+                    Form{"residual", PoseProposal::refined, GaussianTransform::linear, Resampling::residual},
+                    Form{"unscented", PoseProposal::refined, GaussianTransform::unscented,
+                         Resampling::systematic}),
     [](const auto& each) { return each.param.name; });
 
 // A detection without identity is a candidate until others confirm it; a name vouches at once.
@@ -180,7 +182,8 @@ TEST(ParticleFilterTest, TentativeUntilConfirmed) {
 }
 
 TEST(ParticleFilterTest, AnEmptyScanOfNamedLandmarksChangesNothing) {
-    Filter filter = filterOf({"", PoseProposal::refined, GaussianTransform::linear, Resampling::systematic}, 10);
+    Filter filter =
+        filterOf({"", PoseProposal::refined, GaussianTransform::linear, Resampling::systematic}, 10);
     filter.start({}, 1);
     filter.predict(test::odometry(0, 1, {1, 0, 0.1}));
     const PoseGaussian before = filter.robot();
@@ -189,5 +192,5 @@ TEST(ParticleFilterTest, AnEmptyScanOfNamedLandmarksChangesNothing) {
     EXPECT_EQ(filter.landmarkCount(), 0);
 }
 
-}  // namespace
+}  // namespace particle_filter_test
 }  // namespace slamot

@@ -1,5 +1,3 @@
-#include "slamot/core/particles/ParticleWeights.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "slamot/core/particles/ParticleWeights.h"
+
 namespace slamot {
-namespace {
+namespace particle_weights_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -75,8 +75,8 @@ TEST_P(Resamplings, ChildrenAreWithinOneOfTheirShareAndRightOnAverage) {
             mean[static_cast<std::size_t>(i)] += children[static_cast<std::size_t>(i)] / double(draws);
         }
     }
-    // A count that is one of two neighbours has a standard deviation of at most 1/2: 4.5 of them for the mean, one
-    // false alarm in 7,000 such tests of 20 counts.
+    // A count that is one of two neighbours has a standard deviation of at most 1/2: 4.5 of them for the
+    // mean, one false alarm in 7,000 such tests of 20 counts.
     for (int i = 0; i < n; ++i)
         EXPECT_NEAR(mean[static_cast<std::size_t>(i)], n * weights[i], 4.5 * 0.5 / std::sqrt(double(draws)));
 }
@@ -94,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(Both, Resamplings, testing::Values(Resampling::systemat
                          });
 
 TEST(ThinnedTest, KeepsByWeightAndWithoutChance) {
-    const auto expectKept = [](const std::vector<double>& weights, int most, const std::vector<KeptParticle>& expected) {
+    const auto expectKept = [](const std::vector<double>& weights, int most,
+                               const std::vector<KeptParticle>& expected) {
         const std::vector<KeptParticle> kept = thinned(weights, most);
         ASSERT_EQ(kept.size(), expected.size());
         for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -112,5 +113,5 @@ TEST(ThinnedTest, KeepsByWeightAndWithoutChance) {
     expectKept({}, 3, {});
 }
 
-}  // namespace
+}  // namespace particle_weights_test
 }  // namespace slamot

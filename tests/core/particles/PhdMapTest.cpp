@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace phd_map_test {
 
 constexpr double p_d = 0.8;
 
@@ -413,5 +413,5 @@ TEST(PhdMapTest, IdentitiesAreNotUsed) {
     EXPECT_FALSE(particle.all().at(0).source.valid());
 }
 
-}  // namespace
+}  // namespace phd_map_test
 }  // namespace slamot

@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace phd_scan_test {
 
 Vector2 at(double range, double degrees_off) {
     return range * Vector2(std::cos(radians(degrees_off)), std::sin(radians(degrees_off)));
@@ -95,5 +95,5 @@ TEST(PhdScanTest, WeightOfBirths) {
     EXPECT_EQ(p.clutter().clutter_per_scan, 0.1);
 }
 
-}  // namespace
+}  // namespace phd_scan_test
 }  // namespace slamot

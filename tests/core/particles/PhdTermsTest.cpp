@@ -5,7 +5,7 @@
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace phd_terms_test {
 
 PhdTerm term(int sight, double weight, double x, double variance = 1) {
     return {0, sight, weight, {{x, 0}, variance * Matrix2::Identity()}};
@@ -92,5 +92,5 @@ TEST(PhdTermsTest, DensityOfAGaussian) {
     EXPECT_NEAR(densityAt({1.5, 0}, point), std::exp(-1.0) / (2 * pi), 1e-15);
 }
 
-}  // namespace
+}  // namespace phd_terms_test
 }  // namespace slamot

@@ -1,13 +1,12 @@
-#include "slamot/core/particles/PointSight.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "slamot/core/particles/PointSight.h"
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace point_sight_test {
 
 const Pose2 mount{0.3, -0.2, 0.4};
 
@@ -60,14 +59,15 @@ TEST(PointSightTest, UnscentedSightHasTheMomentsOfDraws) {
             const Vector3 xi(random.normal(), random.normal(), random.normal());
             const Vector2 eta(random.normal(), random.normal());
             const Vector2 d = rangeBearingResidual(
-                rangeBearing<double>(s.pose.mean + s.pose.factor * xi, s.point.mean + L * eta, mount), sight.z);
+                rangeBearing<double>(s.pose.mean + s.pose.factor * xi, s.point.mean + L * eta, mount),
+                sight.z);
             mean += d / draws;
             second += d * d.transpose() / draws;
             A += d * xi.transpose() / draws;
             cross += L * eta * d.transpose() / draws;
         }
-        // 4.5 standard errors, and what a transform of third order leaves at these spreads (some 4 % of a range of
-        // 5 m): a hundredth of the deviations.
+        // 4.5 standard errors, and what a transform of third order leaves at these spreads (some 4 % of a
+        // range of 5 m): a hundredth of the deviations.
         const Vector2 deviation = sight.covariance.diagonal().cwiseSqrt();
         for (int i = 0; i < 2; ++i) {
             const double mean_error = deviation(i) * (4.5 / std::sqrt(double(draws)) + 0.01);
@@ -85,7 +85,8 @@ class Transforms : public testing::TestWithParam<GaussianTransform> {};
 
 TEST_P(Transforms, AKnownPoseIsAPoseWithoutSpread) {
     const Scene s = scene(1, 0.05);
-    const PointSight of_belief = sightOf(s.point, PoseBelief{s.pose.mean, Matrix3::Zero()}, mount, GetParam());
+    const PointSight of_belief =
+        sightOf(s.point, PoseBelief{s.pose.mean, Matrix3::Zero()}, mount, GetParam());
     const PointSight of_pose = sightOf(s.point, placeOf(s.pose.mean, mount), GetParam());
     EXPECT_TRUE(test::near(of_belief.z, of_pose.z, 0));
     EXPECT_TRUE(test::near(of_belief.covariance, of_pose.covariance, 0));
@@ -119,7 +120,8 @@ TEST(PointSightTest, RefinementIsTheKalmanUpdateOfPoseAndPoint) {
         const Eigen::Matrix<double, 5, 2> K = P * H.transpose() * S.inverse();
         const Eigen::Matrix<double, 5, 1> shift = K * (z - sight.z);
         const Eigen::Matrix<double, 5, 5> after = P - K * S * K.transpose();
-        EXPECT_TRUE(test::near(refined.belief().mean.head<2>(), s.pose.mean.head<2>() + shift.head<2>(), 1e-12));
+        EXPECT_TRUE(
+            test::near(refined.belief().mean.head<2>(), s.pose.mean.head<2>() + shift.head<2>(), 1e-12));
         EXPECT_NEAR(angleDifference(refined.belief().mean.z(), s.pose.mean.z() + shift(2)), 0, 1e-12);
         EXPECT_TRUE(test::near(refined.belief().covariance(), after.topLeftCorner<3, 3>(), 1e-12));
         EXPECT_TRUE(test::near(point.mean, s.point.mean + shift.tail<2>(), 1e-12));
@@ -131,8 +133,8 @@ TEST(PointSightTest, RefinementIsTheKalmanUpdateOfPoseAndPoint) {
     }
 }
 
-// log_ratio is log p/q: with it draws of the proposal stand for the prior. A prior that knows a direction exactly is
-// no hindrance.
+// log_ratio is log p/q: with it draws of the proposal stand for the prior. A prior that knows a direction
+// exactly is no hindrance.
 TEST_P(Transforms, DrawsWeighedByTheRatioHaveThePriorsMoments) {
     for (const bool flat : {false, true}) {
         Scene s = scene(3, 0.02);
@@ -174,7 +176,8 @@ TEST_P(Transforms, FirstSightLiesWhereTheDetectionPoints) {
 }
 
 TEST_P(Transforms, ManyUpdatesKeepAPointDefinite) {
-    GaussianPoint point = firstSight(placeOf({0, 0, 0}, mount), {5, 0.2}, Vector2(1, 0.1).asDiagonal(), GetParam());
+    GaussianPoint point =
+        firstSight(placeOf({0, 0, 0}, mount), {5, 0.2}, Vector2(1, 0.1).asDiagonal(), GetParam());
     RandomStream random(9, RandomPurpose::test);
     for (int k = 0; k < 20000; ++k) {
         const Vector3 pose(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-pi, pi));
@@ -192,5 +195,5 @@ INSTANTIATE_TEST_SUITE_P(Both, Transforms,
                              return each.param == GaussianTransform::linear ? "linear" : "unscented";
                          });
 
-}  // namespace
+}  // namespace point_sight_test
 }  // namespace slamot

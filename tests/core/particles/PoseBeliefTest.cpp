@@ -1,10 +1,9 @@
 #include "slamot/core/particles/PoseBelief.h"
-
 #include "support/Expect.h"
 #include "support/RandomMatrices.h"
 
 namespace slamot {
-namespace {
+namespace pose_belief_test {
 
 TEST(PoseBeliefTest, FactorsOfWhatIsSemiDefinite) {
     RandomStream random(1, RandomPurpose::test);
@@ -16,7 +15,8 @@ TEST(PoseBeliefTest, FactorsOfWhatIsSemiDefinite) {
         EXPECT_TRUE(L.isLowerTriangular(0));
     }
     EXPECT_TRUE(factorOf(Matrix3::Zero()).isZero(0));
-    EXPECT_TRUE(test::near(factorOf(Vector3(0, 4, 0).asDiagonal()), Matrix3(Vector3(0, 2, 0).asDiagonal()), 0));
+    EXPECT_TRUE(
+        test::near(factorOf(Vector3(0, 4, 0).asDiagonal()), Matrix3(Vector3(0, 2, 0).asDiagonal()), 0));
 }
 
 OdometryIncrement driving(double v, double omega, double dt) {
@@ -64,16 +64,17 @@ TEST(PoseBeliefTest, UnscentedPredictionHasTheMomentsOfDraws) {
         Matrix3 second = Matrix3::Zero();
         for (int k = 0; k < draws; ++k) {
             const Vector3 xi(random.normal(), random.normal(), random.normal());
-            Vector3 d = drawnMove(before.mean + before.factor * xi, motion, control, control_factor, 1, random) -
-                        after.mean;
+            Vector3 d =
+                drawnMove(before.mean + before.factor * xi, motion, control, control_factor, 1, random) -
+                after.mean;
             d.z() = wrapAngle(d.z());
             mean += d / draws;
             second += d * d.transpose() / draws;
         }
         const Matrix3 P = second - mean * mean.transpose();
         // Means: 4.5 standard errors, one false alarm in 10,000 such tests of 12 means. Covariances: as many
-        // standard errors, 4.5 sqrt(2 / draws) = 1.4 %, and what is of second order between heading and control,
-        // 3^2 * 0.1^2 * 0.12^2 = 0.0013.
+        // standard errors, 4.5 sqrt(2 / draws) = 1.4 %, and what is of second order between heading and
+        // control, 3^2 * 0.1^2 * 0.12^2 = 0.0013.
         for (int i = 0; i < 3; ++i)
             EXPECT_LT(std::abs(mean(i)), 4.5 * std::sqrt(P(i, i) / draws)) << static_cast<int>(model);
         EXPECT_TRUE(test::near(10 * after.covariance(), 10 * P, 0.014 + 0.013)) << static_cast<int>(model);
@@ -93,5 +94,5 @@ TEST(PoseBeliefTest, TransformsAgreeWhereNoiseIsSmall) {
     EXPECT_TRUE(test::near(1e6 * unscented.covariance(), 1e6 * linear.covariance(), 1e-4));
 }
 
-}  // namespace
+}  // namespace pose_belief_test
 }  // namespace slamot

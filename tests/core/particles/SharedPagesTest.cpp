@@ -1,14 +1,13 @@
-#include "slamot/core/particles/SharedPages.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "slamot/core/particles/PointSight.h"
+#include "slamot/core/particles/SharedPages.h"
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace shared_pages_test {
 
 struct Item {
     LandmarkId id;
@@ -158,5 +157,5 @@ TEST(SharedPagesTest, AgreesWithPlainMapsWhateverIsDone) {
     }
 }
 
-}  // namespace
+}  // namespace shared_pages_test
 }  // namespace slamot

@@ -1,16 +1,15 @@
-#include "slamot/core/particles/TargetFilter.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
 #include "../estimation/FullMatrixImm.h"
 #include "../estimation/ImmScenes.h"
+#include "slamot/core/particles/TargetFilter.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace target_filter_test {
 
 using test::near;
 
@@ -35,7 +34,8 @@ TargetSettings controlled(int headings) {
     return out;
 }
 
-RelativeGaussian moverOf(const RangeBearingDetection& detection, double velocity_std = 3, double acceleration_std = 2) {
+RelativeGaussian moverOf(const RangeBearingDetection& detection, double velocity_std = 3,
+                         double acceleration_std = 2) {
     return moverAt(firstSight(detection, {}, Consistency::classic), velocity_std, acceleration_std);
 }
 
@@ -50,7 +50,8 @@ RangeBearingDetection detectionAt(int k, const Pose2& pose) {
 
 // Given its pose, a particle's filter of a mover is the textbook's IMM beside a robot that is known exactly.
 TEST(TargetFilterTest, IsTheReferenceImmWhereTheRobotIsKnown) {
-    for (const std::string modes : {"cv:cv:0.5", "cv:cv:0.1, ca:ca:1.5", "cv:cv:0.2, left:ct:0.3:20, u:unicycle:0.5:10"}) {
+    for (const std::string modes :
+         {"cv:cv:0.5", "cv:cv:0.1, ca:ca:1.5", "cv:cv:0.2, left:ct:0.3:20, u:unicycle:0.5:10"}) {
         const ImmParameters imm = test::immModes(modes);
         const TargetSettings settings = settingsOf(imm);
         RobotMotionParameters still;
@@ -74,7 +75,8 @@ TEST(TargetFilterTest, IsTheReferenceImmWhereTheRobotIsKnown) {
             ASSERT_TRUE(near(ours.mean, combined.x.segment<6>(3), 1e-9)) << modes << " " << k;
             ASSERT_TRUE(near(ours.covariance, combined.P.block(3, 3, 6, 6), 1e-9)) << modes << " " << k;
             for (int j = 0; j < filter.probabilities().size(); ++j)
-                ASSERT_NEAR(filter.probabilities()(j), reference.probability(0, j), 1e-9) << modes << " " << k;
+                ASSERT_NEAR(filter.probabilities()(j), reference.probability(0, j), 1e-9)
+                    << modes << " " << k;
             ASSERT_TRUE(near(filter.position().mean, combined.x.segment<2>(3), 1e-9));
         }
     }
@@ -94,7 +96,8 @@ TEST(TargetFilterTest, LikelihoodIsThatOfTheMixture) {
     for (int j = 0; j < 2; ++j) {
         const TargetGaussian& mode = filter.mode(j);
         const RangeBearingPrediction h = predictRangeBearing(Vector3::Zero(), mode.mean.head<2>(), {});
-        const Matrix2 S = h.H_point * mode.covariance.topLeftCorner<2, 2>() * h.H_point.transpose() + next.covariance;
+        const Matrix2 S =
+            h.H_point * mode.covariance.topLeftCorner<2, 2>() * h.H_point.transpose() + next.covariance;
         const Vector2 nu = rangeBearingResidual(next.z(), h.z);
         density += filter.probabilities()(j) * std::exp(-0.5 * nu.dot(S.inverse() * nu)) /
                    (2 * pi * std::sqrt(S.determinant()));
@@ -161,9 +164,11 @@ TEST(TargetFilterTest, ControlledMoverByHand) {
     const Eigen::Matrix<double, 3, 2> K = P * H.transpose() * S.inverse();
     const Vector2 nu(seen.range - r, seen.bearing - std::atan2(x(1), x(0)));
     const double log_N = filter.update(settings, Vector3::Zero(), sightOf(seen));
-    EXPECT_NEAR(log_N, -0.5 * nu.dot(S.inverse() * nu) - 0.5 * std::log(S.determinant()) - std::log(2 * pi), 1e-12);
+    EXPECT_NEAR(log_N, -0.5 * nu.dot(S.inverse() * nu) - 0.5 * std::log(S.determinant()) - std::log(2 * pi),
+                1e-12);
     EXPECT_TRUE(near(filter.mode(0).mean.head<3>(), x + K * nu, 1e-14));
-    EXPECT_TRUE(near(filter.mode(0).covariance.topLeftCorner<3, 3>(), (Matrix3::Identity() - K * H) * P, 1e-14));
+    EXPECT_TRUE(
+        near(filter.mode(0).covariance.topLeftCorner<3, 3>(), (Matrix3::Identity() - K * H) * P, 1e-14));
     EXPECT_TRUE(filter.mode(0).covariance.bottomRows<3>().isZero(0));
 
     // Told as [p v a]: 1 m/s along the heading.
@@ -177,7 +182,9 @@ TEST(TargetFilterTest, AtFirstSightAllHeadingsAreAlikeAndThenThePathDecides) {
     const TargetSettings settings = controlled(8);
     for (const double heading : {0.0, 0.4, 2.0, -2.5}) {
         const Vector2 along(std::cos(heading), std::sin(heading));
-        const auto at = [&](int k) { return test::seen({}, Vector2(5, 3) + 0.2 * k * along, ObjectKind::mover, 1); };
+        const auto at = [&](int k) {
+            return test::seen({}, Vector2(5, 3) + 0.2 * k * along, ObjectKind::mover, 1);
+        };
         TargetFilter filter(settings, moverOf(at(0)), Vector3::Zero());
         ASSERT_EQ(filter.probabilities().size(), 8);
         for (int j = 0; j < 8; ++j) EXPECT_NEAR(filter.probabilities()(j), 0.125, 1e-12);
@@ -225,5 +232,5 @@ TEST(TargetFilterTest, StaysDefiniteWhereDetectionsAreFarBetterThanThePrior) {
     }
 }
 
-}  // namespace
+}  // namespace target_filter_test
 }  // namespace slamot

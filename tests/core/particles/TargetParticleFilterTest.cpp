@@ -1,16 +1,15 @@
 // Whole runs of the particle filter with movers: named, without identity, and of unknown kind.
-#include "slamot/core/particles/TargetParticleFilter.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "../estimation/ImmScenes.h"
 #include "../filter/HiddenWorld.h"
+#include "slamot/core/particles/TargetParticleFilter.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace target_particle_filter_test {
 
 using test::detectionsAt;
 using test::HiddenWorld;
@@ -43,7 +42,8 @@ std::vector<Outcome> outcomes(const UpdateReport& report) {
 /// What is believed to be there.
 template <class Estimates>
 Estimates existing(Estimates all) {
-    all.erase(std::remove_if(all.begin(), all.end(), [](const auto& e) { return e.existence < 0.5; }), all.end());
+    all.erase(std::remove_if(all.begin(), all.end(), [](const auto& e) { return e.existence < 0.5; }),
+              all.end());
     return all;
 }
 
@@ -130,7 +130,8 @@ struct Found {
     double squared_error = 0;
 };
 
-Found runOf(const TargetParticleParameters& p, const HiddenWorld& world, std::uint64_t seed, bool labelled = false) {
+Found runOf(const TargetParticleParameters& p, const HiddenWorld& world, std::uint64_t seed,
+            bool labelled = false) {
     TargetParticleFilter filter(p, HiddenWorld::motion(), 1);
     filter.start(world.start(), seed);
     Found out;
@@ -178,13 +179,14 @@ TEST_P(HiddenRuns, FindWhatIsThere) {
         all.squared_error += run.squared_error;
         labelled += runOf(named, world, seed, true).squared_error;
     }
-    std::cout << form << kinds_known << " landmarks " << all.landmarks << "/" << all.matched_landmarks << " tracks "
-              << all.tracks << "/" << all.matched_tracks << " error ratio " << std::sqrt(all.squared_error / labelled)
-              << " " << std::sqrt(labelled / seeds) << std::endl;
+    std::cout << form << kinds_known << " landmarks " << all.landmarks << "/" << all.matched_landmarks
+              << " tracks " << all.tracks << "/" << all.matched_tracks << " error ratio "
+              << std::sqrt(all.squared_error / labelled) << " " << std::sqrt(labelled / seeds) << std::endl;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HiddenRuns,
-                         testing::Combine(testing::Bool(), testing::Values("gnn", "jpda", "modes", "unweighed")),
+                         testing::Combine(testing::Bool(),
+                                          testing::Values("gnn", "jpda", "modes", "unweighed")),
                          [](const auto& each) {
                              return std::get<1>(each.param) + (std::get<0>(each.param) ? "_kinds" : "_mixed");
                          });
@@ -218,14 +220,16 @@ TEST(TargetParticleFilterTest, WhereIdentitiesAreRequiredNamelessDetectionsAreNo
 struct StopAndGo {
     bool moved, stood, moved_on;
 
-    StopAndGo(int seed, double speed_again) : robot(mixed()), random(static_cast<std::uint64_t>(seed), RandomPurpose::test) {
+    StopAndGo(int seed, double speed_again)
+        : robot(mixed()), random(static_cast<std::uint64_t>(seed), RandomPurpose::test) {
         look(6, 1);
         moved = isMover();
         look(8, 0);
         const auto landmarks = existing(robot.filter.landmarks());
         stood = existing(robot.filter.tracks()).empty() && landmarks.size() == 3 &&
-                std::any_of(landmarks.begin(), landmarks.end(),
-                            [this](const LandmarkEstimate& each) { return isThere(each) && each.moving < 0.5; });
+                std::any_of(landmarks.begin(), landmarks.end(), [this](const LandmarkEstimate& each) {
+                    return isThere(each) && each.moving < 0.5;
+                });
         look(8, speed_again);
         moved_on = isMover();
     }
@@ -294,7 +298,9 @@ TEST(TargetParticleFilterTest, TheSameBitsForAnyNumberOfThreads) {
         TargetParticleFilter filter(parameters(), HiddenWorld::motion(), threads);
         filter.start(world.start(), 3);
         std::vector<double> now;
-        const auto put = [&](const auto& matrix) { now.insert(now.end(), matrix.data(), matrix.data() + matrix.size()); };
+        const auto put = [&](const auto& matrix) {
+            now.insert(now.end(), matrix.data(), matrix.data() + matrix.size());
+        };
         for (const HiddenWorld::Step& step : world.steps) {
             filter.predict(step.odometry);
             filter.update(step.hidden);
@@ -307,5 +313,5 @@ TEST(TargetParticleFilterTest, TheSameBitsForAnyNumberOfThreads) {
     }
 }
 
-}  // namespace
+}  // namespace target_particle_filter_test
 }  // namespace slamot

@@ -1,19 +1,19 @@
-#include "slamot/core/particles/TargetParticles.h"
-
 #include <cmath>
 
+#include "slamot/core/particles/TargetParticles.h"
 #include "support/Expect.h"
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace target_particles_test {
 
 using test::detectionsAt;
 using test::near;
 using test::odometry;
 using test::seen;
 
-constexpr ObjectKind landmark = ObjectKind::landmark, mover = ObjectKind::mover, unknown = ObjectKind::unknown;
+constexpr ObjectKind landmark = ObjectKind::landmark, mover = ObjectKind::mover,
+                     unknown = ObjectKind::unknown;
 
 RobotMotionParameters motion() {
     RobotMotionParameters out;
@@ -21,7 +21,8 @@ RobotMotionParameters motion() {
     return out;
 }
 
-TargetParticles particlesOf(int count, bool weigh_targets = true, PoseProposal proposal = PoseProposal::motion) {
+TargetParticles particlesOf(int count, bool weigh_targets = true,
+                            PoseProposal proposal = PoseProposal::motion) {
     LandmarkFilterParameters landmarks;
     TargetSettings targets;
     targets.models[0].noise_std = 0.3;
@@ -46,8 +47,9 @@ TargetDetection detectionOf(BlockId target, const RangeBearingDetection& detecti
     return {target, {detection.z(), detection.covariance, {}}};
 }
 
-// A mover as seen from an uncertain robot: P_TT = G P_RR G^t + own, P_RT = P_RR G^t (paper 1, eq. 13 to 17). With 4,000
-// particles an entry of a covariance is off by 1/sqrt(2,000) of the deviations' product or so; five times that.
+// A mover as seen from an uncertain robot: P_TT = G P_RR G^t + own, P_RT = P_RR G^t (paper 1, eq. 13 to 17).
+// With 4,000 particles an entry of a covariance is off by 1/sqrt(2,000) of the deviations' product or so;
+// five times that.
 TEST(TargetParticlesTest, ManyParticlesHaveTheMomentsOfTheJointFilter) {
     TargetParticles particles = particlesOf(4000);
     PoseGaussian start{{1, -2, 3.1}, Matrix3(Vector3(0.04, 0.09, 1e-4).asDiagonal())};
@@ -66,7 +68,8 @@ TEST(TargetParticlesTest, ManyParticlesHaveTheMomentsOfTheJointFilter) {
                                const BlockVector& columns) {
         for (Eigen::Index i = 0; i < wanted.rows(); ++i)
             for (Eigen::Index j = 0; j < wanted.cols(); ++j)
-                EXPECT_NEAR(value(i, j), wanted(i, j), 5 / std::sqrt(2000.0) * rows(i) * columns(j) + 1e-12) << i << j;
+                EXPECT_NEAR(value(i, j), wanted(i, j), 5 / std::sqrt(2000.0) * rows(i) * columns(j) + 1e-12)
+                    << i << j;
     };
     const BlockVector d_R = start.covariance.diagonal().cwiseSqrt(), d_T = P_TT.diagonal().cwiseSqrt();
     expectNear(merged.covariance(target, target), P_TT, d_T, d_T);
@@ -77,7 +80,8 @@ TEST(TargetParticlesTest, ManyParticlesHaveTheMomentsOfTheJointFilter) {
 TEST(TargetParticlesTest, TheWaysToAskForMomentsAgree) {
     TargetParticles particles = particlesOf(20);
     particles.start({{}, Matrix3(Vector3(0.04, 0.09, 1e-2).asDiagonal())}, 5);
-    const BlockId a = particles.addTarget(moverAtPoint({4, 3})), b = particles.addTarget(moverAtPoint({-4, 1}));
+    const BlockId a = particles.addTarget(moverAtPoint({4, 3})),
+                  b = particles.addTarget(moverAtPoint({-4, 1}));
     particles.predict(odometry(0, 0.1, {0.2, 0, 0.1}));
     const MergedTargets merged = particles.merged();
     for (const BlockId target : {a, b}) {
@@ -141,8 +145,9 @@ TEST(TargetParticlesTest, WhatMayNotBeTheMoversWeighsLittle) {
 TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
     TargetParticles particles = particlesOf(1);
     particles.start({}, 5);
-    const std::vector<RangeBearingDetection> sights{seen({}, {5, 0}, unknown, -1), seen({}, {5.3, 0}, unknown, -1),
-                                                    seen({}, {5, 3}, unknown, -1), seen({}, {5, 0.1}, unknown, -1)};
+    const std::vector<RangeBearingDetection> sights{
+        seen({}, {5, 0}, unknown, -1), seen({}, {5.3, 0}, unknown, -1), seen({}, {5, 3}, unknown, -1),
+        seen({}, {5, 0.1}, unknown, -1)};
     std::vector<TentativeSight> tentative;
     for (int k = 0; k < 4; ++k) {
         const auto& sight = sights[static_cast<std::size_t>(k)];
@@ -164,7 +169,8 @@ TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
     EXPECT_NEAR(point->point.covariance(0, 0), 0.01 / 3, 1e-5);
 
     // It explains its next sight; another one may be new.
-    particles.updateByLandmarks(scanAt(5, {seen({}, {-4, 2}, unknown, -1), seen({}, {5.1, 0}, unknown, -1)}), true);
+    particles.updateByLandmarks(scanAt(5, {seen({}, {-4, 2}, unknown, -1), seen({}, {5.1, 0}, unknown, -1)}),
+                                true);
     const auto verdicts = particles.landmarkVerdicts();
     ASSERT_EQ(verdicts.size(), 2u);
     EXPECT_TRUE(verdicts[0].may_be_new);
@@ -178,8 +184,8 @@ TEST(TargetParticlesTest, ASightThatIsLikelierOfAMoverIsLeftToIt) {
     TargetParticles particles = particlesOf(1);
     particles.start({}, 5);
     particles.updateByLandmarks(scanAt(0, {seen({}, {5, 0}, unknown, -1)}), true);
-    const LandmarkId id =
-        particles.addLandmark({{Stamp::fromSeconds(0), seen({}, {5, 0}, unknown, -1), {}}}, 13.8, LandmarkFilter());
+    const LandmarkId id = particles.addLandmark({{Stamp::fromSeconds(0), seen({}, {5, 0}, unknown, -1), {}}},
+                                                13.8, LandmarkFilter());
     particles.addTarget(moverAtPoint({5, 0.4}));
     particles.updateByLandmarks(scanAt(1, {seen({}, {5, 0.38}, unknown, -1)}), true);
     EXPECT_FALSE(particles.landmarkVerdicts().at(0).explained);
@@ -191,5 +197,5 @@ TEST(TargetParticlesTest, ASightThatIsLikelierOfAMoverIsLeftToIt) {
     EXPECT_TRUE(particles.landmarkVerdicts().empty());
 }
 
-}  // namespace
+}  // namespace target_particles_test
 }  // namespace slamot

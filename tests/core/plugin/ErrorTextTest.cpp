@@ -1,13 +1,13 @@
-#include "slamot/core/plugin/ErrorText.h"
-
 #include <gtest/gtest.h>
 #include <mrpt/core/exceptions.h>
 
 #include <stdexcept>
 #include <string>
 
+#include "slamot/core/plugin/ErrorText.h"
+
 namespace slamot {
-namespace {
+namespace error_text_test {
 
 TEST(ErrorText, IsOneLineWithoutMrptsCallStack) {
     EXPECT_EQ(sentenceOf(std::runtime_error("a\nb")), "a b");
@@ -23,5 +23,5 @@ TEST(ErrorText, IsOneLineWithoutMrptsCallStack) {
     EXPECT_LT(sentence.size(), what.size());
 }
 
-}  // namespace
+}  // namespace error_text_test
 }  // namespace slamot

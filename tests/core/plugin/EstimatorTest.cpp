@@ -74,7 +74,7 @@ class FrontTestEstimator : public Estimator {
 IMPLEMENTS_MRPT_OBJECT(FrontTestEstimator, Estimator, slamot)
 
 namespace slamot {
-namespace {
+namespace estimator_test {
 
 using test::detectionsAt;
 using test::messageOf;
@@ -260,7 +260,8 @@ TEST_F(EstimatorTest, ParticlesMustBeAWhole) {
     EXPECT_EQ(messageOf<EstimatorError>([&] { estimator_.particles(); }),
               "front_test: the weights of 2 particles at 10.0000000 sum to 1.05 instead of 1");
     estimator_.particle_list = {{1.25, {}}, {-0.25, {}}};
-    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.particles(); }), HasSubstr("particle 1 at 10.0000000"));
+    EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.particles(); }),
+                HasSubstr("particle 1 at 10.0000000"));
     estimator_.particle_list = {{1, {}}};
     estimator_.particle_list[0].pose.mean.x = std::numeric_limits<double>::infinity();
     EXPECT_THAT(messageOf<EstimatorError>([&] { estimator_.particles(); }), HasSubstr("particle 0"));
@@ -305,5 +306,5 @@ TEST_F(EstimatorTest, IsAnMrptObject) {
     EXPECT_TRUE(estimator_.GetRuntimeClass()->derivedFrom(CLASS_ID_NAMESPACE(Estimator, slamot)));
 }
 
-}  // namespace
+}  // namespace estimator_test
 }  // namespace slamot

@@ -10,7 +10,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace plugin_registry_test {
 
 using test::messageOf;
 using testing::AllOf;
@@ -164,5 +164,5 @@ TEST(PluginRegistryTest, SearchPathHasSeveralEntriesAndEmptyParts) {
     EXPECT_EQ(PluginRegistry::defaultFolders(), std::vector<std::string>{real_plugins});
 }
 
-}  // namespace
+}  // namespace plugin_registry_test
 }  // namespace slamot

@@ -8,7 +8,7 @@
 #include "slamot/core/random/RandomStream.h"
 
 namespace slamot {
-namespace {
+namespace random_stream_test {
 
 constexpr auto test_purpose = RandomPurpose::test;
 
@@ -135,5 +135,5 @@ TEST(RandomStreamTest, DerivedSeedsSpread) {
     }
 }
 
-}  // namespace
+}  // namespace random_stream_test
 }  // namespace slamot

@@ -2,7 +2,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace dead_reckoning_test {
 
 std::shared_ptr<Estimator> deadReckoning(const std::string& config) {
     conformance::Options options;
@@ -56,7 +56,7 @@ TEST(DeadReckoningTest, DetectionsAreCountedAndNotUsed) {
     EXPECT_EQ(estimator->robot().mean.vector(), Vector3(0, 0, 0));
 }
 
-}  // namespace
+}  // namespace dead_reckoning_test
 }  // namespace slamot
 
 SLAMOT_CONFORMANCE_SUITE(dead_reckoning, slamot::conformance::Options{});

@@ -2,7 +2,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace ekf_slamot_test {
 
 std::shared_ptr<Estimator> ekf(const std::string& consistency) {
     conformance::Options options;
@@ -78,8 +78,8 @@ conformance::Options classic() {
     return options;
 }
 
-}  // namespace
+}  // namespace ekf_slamot_test
 }  // namespace slamot
 
 SLAMOT_CONFORMANCE_SUITE(ekf_slamot, slamot::conformance::Options{});
-SLAMOT_CONFORMANCE_SUITE(ekf_slamot_classic, slamot::classic());
+SLAMOT_CONFORMANCE_SUITE(ekf_slamot_classic, slamot::ekf_slamot_test::classic());

@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace fastslam_test {
 
 conformance::Options version(const std::string& number) {
     conformance::Options options;
@@ -41,8 +41,8 @@ TEST(FastslamTest, OneParticleThatStandsStillByHand) {
     }
 }
 
-}  // namespace
+}  // namespace fastslam_test
 }  // namespace slamot
 
-SLAMOT_CONFORMANCE_SUITE(fastslam, slamot::version("2"));
-SLAMOT_CONFORMANCE_SUITE(fastslam_1, slamot::version("1"));
+SLAMOT_CONFORMANCE_SUITE(fastslam, slamot::fastslam_test::version("2"));
+SLAMOT_CONFORMANCE_SUITE(fastslam_1, slamot::fastslam_test::version("1"));

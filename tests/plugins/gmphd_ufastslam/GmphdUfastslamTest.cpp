@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace gmphd_ufastslam_test {
 
 conformance::Options sampled() {
     conformance::Options options;
@@ -78,7 +78,7 @@ TEST(GmphdUfastslamTest, TwoScansByHand) {
     EXPECT_TRUE(estimator->landmarks().empty());
 }
 
-}  // namespace
+}  // namespace gmphd_ufastslam_test
 }  // namespace slamot
 
-SLAMOT_CONFORMANCE_SUITE(gmphd_ufastslam, slamot::sampled());
+SLAMOT_CONFORMANCE_SUITE(gmphd_ufastslam, slamot::gmphd_ufastslam_test::sampled());

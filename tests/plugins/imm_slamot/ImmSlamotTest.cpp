@@ -2,7 +2,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace imm_slamot_test {
 
 using test::messageOf;
 
@@ -93,12 +93,12 @@ conformance::Options threeModes() {
     return options;
 }
 
-}  // namespace
+}  // namespace imm_slamot_test
 }  // namespace slamot
 
 SLAMOT_CONFORMANCE_SUITE(imm_slamot, slamot::conformance::Options{});
-SLAMOT_CONFORMANCE_SUITE(imm_slamot_classic, slamot::classic());
-SLAMOT_CONFORMANCE_SUITE(imm_slamot_scalable, slamot::scalable());
-SLAMOT_CONFORMANCE_SUITE(imm_slamot_decoupled, slamot::decoupled());
-SLAMOT_CONFORMANCE_SUITE(imm_slamot_compressed, slamot::compressed());
-SLAMOT_CONFORMANCE_SUITE(imm_slamot_three_modes, slamot::threeModes());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_classic, slamot::imm_slamot_test::classic());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_scalable, slamot::imm_slamot_test::scalable());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_decoupled, slamot::imm_slamot_test::decoupled());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_compressed, slamot::imm_slamot_test::compressed());
+SLAMOT_CONFORMANCE_SUITE(imm_slamot_three_modes, slamot::imm_slamot_test::threeModes());

@@ -10,7 +10,7 @@
 #include "conformance/Play.h"
 
 namespace slamot {
-namespace {
+namespace scalable_form_test {
 
 /// Paper 1's scenario with another number of landmarks, and with a second mover.
 sim::Scenario paperWorld(int landmarks, bool second_mover) {
@@ -79,5 +79,5 @@ TEST(ScalableFormTest, CostsATenthOnASparseMapWithTwoMovers) {
     EXPECT_GT(r.targets, 0.95) << "better than exact is a fault in the comparison";
 }
 
-}  // namespace
+}  // namespace scalable_form_test
 }  // namespace slamot

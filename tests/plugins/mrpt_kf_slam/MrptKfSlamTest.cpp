@@ -5,7 +5,7 @@
 #include "support/Expect.h"
 
 namespace slamot {
-namespace {
+namespace mrpt_kf_slam_test {
 
 std::shared_ptr<Estimator> make(const std::string& plugin) {
     conformance::Options options;
@@ -90,7 +90,7 @@ TEST(MrptKfSlamTest, TheSameLandmarkTwiceInAScanCountsOnce) {
     EXPECT_EQ(peer->landmarks().size(), 7u);
 }
 
-}  // namespace
+}  // namespace mrpt_kf_slam_test
 }  // namespace slamot
 
 slamot::conformance::Options mrptKfSlam() {

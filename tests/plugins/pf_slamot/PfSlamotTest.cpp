@@ -6,7 +6,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace pf_slamot_test {
 
 using test::messageOf;
 using test::near;
@@ -30,11 +30,11 @@ std::shared_ptr<Estimator> pf(const std::string& config) {
 
 // One particle at a known pose is one Kalman filter for the mover.
 TEST(PfSlamotTest, OneParticleThatStandsStillByHand) {
-    const auto estimator = pf(
-        "[motion]\nmodel = increment\nalong_std_per_sqrt_m = 0\nacross_std_per_sqrt_m = 0\n"
-        "[pf_slamot]\nparticles = 1\n"
-        "[pf_slamot.modes]\nmodes = cv:cv:0.5\nnoise_interval = 0\n"
-        "[pf_slamot.target]\nvelocity_std = 3\n");
+    const auto estimator =
+        pf("[motion]\nmodel = increment\nalong_std_per_sqrt_m = 0\nacross_std_per_sqrt_m = 0\n"
+           "[pf_slamot]\nparticles = 1\n"
+           "[pf_slamot.modes]\nmodes = cv:cv:0.5\nnoise_interval = 0\n"
+           "[pf_slamot.target]\nvelocity_std = 3\n");
     estimator->start({});
     // First sight at (2, 0): P = diag(0.01, 2^2 * 0.0004); velocity 0 +- 3, acceleration 0 +- 2.
     estimator->update(test::detectionsAt(0, {test::seen({}, {2, 0}, ObjectKind::mover, 7)}));
@@ -51,7 +51,8 @@ TEST(PfSlamotTest, OneParticleThatStandsStillByHand) {
     EXPECT_NEAR(track.covariance(0, 2), P_xv, 1e-12);
     EXPECT_TRUE((track.covariance.bottomRows<2>().isZero(0)));
     // Seen 0.11 m farther: gains P / (P + 0.01).
-    const auto report = estimator->update(test::detectionsAt(0.1, {test::seen({}, {2.11, 0}, ObjectKind::mover, 7)}));
+    const auto report =
+        estimator->update(test::detectionsAt(0.1, {test::seen({}, {2.11, 0}, ObjectKind::mover, 7)}));
     const double nu = 0.11;
     EXPECT_EQ(report.innovations.at(0).outcome, Outcome::updated);
     EXPECT_EQ(report.innovations.at(0).kind, ObjectKind::mover);
@@ -84,13 +85,17 @@ TEST(PfSlamotTest, MistakesInTheModesAreSentences) {
         EXPECT_NE(message.find(word), std::string::npos) << message;
 }
 
-}  // namespace
+}  // namespace pf_slamot_test
 }  // namespace slamot
 
-SLAMOT_CONFORMANCE_SUITE(pf_slamot, slamot::options(""));
-SLAMOT_CONFORMANCE_SUITE(pf_slamot_refined, slamot::options("[pf_slamot]\nproposal = refined\n"));
-SLAMOT_CONFORMANCE_SUITE(pf_slamot_unscented,
-                         slamot::options("[pf_slamot]\nproposal = refined\ntransform = unscented\n"));
-SLAMOT_CONFORMANCE_SUITE(pf_slamot_modes, slamot::options("[pf_slamot.modes]\nmodes = cv:cv:0.2, ca:ca:1\n"));
-SLAMOT_CONFORMANCE_SUITE(pf_slamot_control,
-                         slamot::options("[pf_slamot.target]\nmotion = control\n[pf_slamot.association]\nmovers = jpda\n"));
+SLAMOT_CONFORMANCE_SUITE(pf_slamot, slamot::pf_slamot_test::options(""));
+SLAMOT_CONFORMANCE_SUITE(pf_slamot_refined,
+                         slamot::pf_slamot_test::options("[pf_slamot]\nproposal = refined\n"));
+SLAMOT_CONFORMANCE_SUITE(
+    pf_slamot_unscented,
+    slamot::pf_slamot_test::options("[pf_slamot]\nproposal = refined\ntransform = unscented\n"));
+SLAMOT_CONFORMANCE_SUITE(pf_slamot_modes,
+                         slamot::pf_slamot_test::options("[pf_slamot.modes]\nmodes = cv:cv:0.2, ca:ca:1\n"));
+SLAMOT_CONFORMANCE_SUITE(
+    pf_slamot_control, slamot::pf_slamot_test::options(
+                           "[pf_slamot.target]\nmotion = control\n[pf_slamot.association]\nmovers = jpda\n"));

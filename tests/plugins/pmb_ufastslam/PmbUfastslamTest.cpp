@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace pmb_ufastslam_test {
 
 conformance::Options sampled() {
     conformance::Options options;
@@ -23,8 +23,9 @@ DetectionSet ahead(double t, double range) {
     return set;
 }
 
-// One particle at a known pose, one landmark, one detection a scan: the landmark exists more surely with every scan and
-// is their mean, as far as the first sight's sigma points and the doubt about what was detected let it.
+// One particle at a known pose, one landmark, one detection a scan: the landmark exists more surely with
+// every scan and is their mean, as far as the first sight's sigma points and the doubt about what was
+// detected let it.
 TEST(PmbUfastslamTest, OneLandmarkFromAPoseThatIsKnown) {
     const auto estimator = conformance::createSubject(sampled());
     estimator->initialize(Config::fromText("[pmb_ufastslam]\nparticles = 1\n"));
@@ -39,7 +40,7 @@ TEST(PmbUfastslamTest, OneLandmarkFromAPoseThatIsKnown) {
     EXPECT_EQ(landmarks[0].seen, 6);
 }
 
-}  // namespace
+}  // namespace pmb_ufastslam_test
 }  // namespace slamot
 
-SLAMOT_CONFORMANCE_SUITE(pmb_ufastslam, slamot::sampled());
+SLAMOT_CONFORMANCE_SUITE(pmb_ufastslam, slamot::pmb_ufastslam_test::sampled());

@@ -3,7 +3,7 @@
 #include "support/Scenes.h"
 
 namespace slamot {
-namespace {
+namespace ufastslam_test {
 
 conformance::Options sampled() {
     conformance::Options options;
@@ -13,8 +13,8 @@ conformance::Options sampled() {
     return options;
 }
 
-// Sigma points of range 2 m and bearing 0 with deviations 0.1 m and 0.02 rad: alpha sqrt(2) of them away, weights
-// 1 / (2 alpha^2 2). The bearing's points lie 2 (1 - cos(0.9 sqrt(2) 0.02)) nearer.
+// Sigma points of range 2 m and bearing 0 with deviations 0.1 m and 0.02 rad: alpha sqrt(2) of them away,
+// weights 1 / (2 alpha^2 2). The bearing's points lie 2 (1 - cos(0.9 sqrt(2) 0.02)) nearer.
 TEST(UfastslamTest, FirstSightByHand) {
     const auto estimator = conformance::createSubject(sampled());
     estimator->initialize(Config::fromText("[ufastslam]\nparticles = 1\n"));
@@ -32,7 +32,7 @@ TEST(UfastslamTest, FirstSightByHand) {
     EXPECT_NEAR(landmark.covariance(1, 1), 2 * weight * std::pow(2 * std::sin(reach * 0.02), 2), 1e-15);
 }
 
-}  // namespace
+}  // namespace ufastslam_test
 }  // namespace slamot
 
-SLAMOT_CONFORMANCE_SUITE(ufastslam, slamot::sampled());
+SLAMOT_CONFORMANCE_SUITE(ufastslam, slamot::ufastslam_test::sampled());

@@ -11,14 +11,13 @@
 namespace slamot {
 namespace {
 
-using Place = BernoulliMap::Place;
-
 /// Pairs less likely than this are left out of the mixture: they would move nothing.
 constexpr double least_pair = 1e-8;
 
 constexpr double least_clutter = 1e-6;
 
-/// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the feature missed.
+/// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the
+/// feature missed.
 double logRatio(const BernoulliMap::Work::Near& near, const Candidate& pair, double unexplained) {
     const double seen = near.detection * near.existence.visibility();
     return std::log(seen / (unexplained * (1 - seen))) + pair.log_likelihood;
@@ -36,8 +35,8 @@ BernoulliMap::Settings::Settings(const BernoulliMapParameters& p, GaussianTransf
 // --- which detection may be of what
 // ---------------------------------------------------------------------------------------------------
 
-void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, int number,
-                            Work& work) const {
+void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                            int number, Work& work) const {
     const LifeParameters& life = settings.parameters.life;
     const ScanView& view = scan.views[static_cast<std::size_t>(number)];
     work.near.clear();
@@ -47,18 +46,20 @@ void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, co
                            [&](const ScanSight& sight) { return sight.known_as == feature.id; });
     };
     const StandingSensor sensor(pose, view);
-    features_.forEachNear(sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
-        if (!sensor.mayShow(feature.point)) return;
-        if (feature.source.valid() && toldByName(feature)) return;
-        work.near.push_back({place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
-        Work::Near& near = work.near.back();
-        near.detection = life.detection_probability * sensor.inView(near.sight);
-        near.existence.pass(secondsBetween(feature.looked, scan.now), life);
-    });
+    features_.forEachNear(
+        sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
+            if (!sensor.mayShow(feature.point)) return;
+            if (feature.source.valid() && toldByName(feature)) return;
+            work.near.push_back(
+                {place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
+            Work::Near& near = work.near.back();
+            near.detection = life.detection_probability * sensor.inView(near.sight);
+            near.existence.pass(secondsBetween(feature.looked, scan.now), life);
+        });
 }
 
-void BernoulliMap::expectUnexplained(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
-                                     Work& work) const {
+void BernoulliMap::expectUnexplained(const Settings& settings, const PoseBelief& pose,
+                                     const ParticleScan& scan, Work& work) const {
     const BernoulliMapParameters& p = settings.parameters;
     const ScanView& view = scan.views[static_cast<std::size_t>(work.view)];
     const StandingSensor sensor(pose, view);
@@ -71,7 +72,8 @@ void BernoulliMap::expectUnexplained(const Settings& settings, const PoseBelief&
         if (sight.view != work.view || sight.named()) continue;
         // An element of range and bearing at range r covers r times as much ground.
         work.fresh[s] = p.life.detection_probability * p.density * undetected_.part(sensor.pointOf(sight.z)) *
-                            sight.z.x() + appearing;
+                            sight.z.x() +
+                        appearing;
         work.unexplained[s] = work.fresh[s] + clutter;
     }
 }
@@ -96,12 +98,14 @@ void BernoulliMap::findCandidates(const Settings& settings, const ParticleScan& 
     }
 }
 
-void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work) {
+void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                             Work& work) {
     for (std::size_t c = 0; c < work.candidates.size(); ++c) {
         Candidate& pair = work.candidates[c];
         const ScanSight& sight = scan.sights[static_cast<std::size_t>(pair.detection)];
         Work::Near& near = work.near[static_cast<std::size_t>(pair.object)];
-        if (!near.at_pose) near.sight = sightOf(near.point, placeOf(pose, scan.sensorOf(sight)), settings.transform);
+        if (!near.at_pose)
+            near.sight = sightOf(near.point, placeOf(pose, scan.sensorOf(sight)), settings.transform);
         near.at_pose = true;
         const PointInnovation innovation(near.sight, sight.z, sight.R);
         pair.nis = innovation.nis;
@@ -110,8 +114,8 @@ void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, cons
     }
 }
 
-void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
-                          std::vector<SightRecord>& records) const {
+void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                          Work& work, std::vector<SightRecord>& records) const {
     work.pairs.clear();
     records.assign(scan.sights.size(), {});
     std::vector<double> best(scan.sights.size(), 0);
@@ -132,8 +136,8 @@ void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, cons
         findNear(settings, pose, scan, view, work);
         expectUnexplained(settings, pose, scan, work);
         findCandidates(settings, scan, work);
-        const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(work.near.size()),
-                                         work.candidates);
+        const AssociationProblem problem(static_cast<int>(scan.sights.size()),
+                                         static_cast<int>(work.near.size()), work.candidates);
         const AssociationMarginals marginals =
             associationMarginals(problem, work.log_ratios, settings.parameters.state_budget);
         for (int c = 0; c < problem.candidates(); ++c) {
@@ -154,7 +158,8 @@ void BernoulliMap::refine(const Settings& settings, const ParticleScan& scan, co
                           RefinedPose& pose) const {
     for (const Work::Pair& pair : work.pairs) {
         const ScanSight& sight = scan.sights[static_cast<std::size_t>(pair.sight)];
-        const PointSight expected = sightOf(pair.point, pose.belief(), scan.sensorOf(sight), settings.transform);
+        const PointSight expected =
+            sightOf(pair.point, pose.belief(), scan.sensorOf(sight), settings.transform);
         pose.take(expected, PointInnovation(expected, sight.z, sight.R));
     }
 }
@@ -162,8 +167,8 @@ void BernoulliMap::refine(const Settings& settings, const ParticleScan& scan, co
 // --- what the scan says of the map
 // ---------------------------------------------------------------------------------------------------
 
-double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool /*drawn*/, const ParticleScan& scan,
-                            Work& work, std::vector<SightRecord>& records) {
+double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool /*drawn*/,
+                            const ParticleScan& scan, Work& work, std::vector<SightRecord>& records) {
     double log_likelihood = 0;
     std::vector<double> none(scan.sights.size());
     work.lost.clear();
@@ -178,7 +183,8 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
             const bool starts = sight.named() ? !sight.known_as.valid()
                                               : none[s] >= settings.parameters.life.remove_probability;
             if (!starts) continue;
-            start(settings, pose, scan, sight, sight.named() ? 1 : none[s] * work.fresh[s] / work.unexplained[s]);
+            start(settings, pose, scan, sight,
+                  sight.named() ? 1 : none[s] * work.fresh[s] / work.unexplained[s]);
             if (records[s].landmark.valid()) continue;
             records[s].landmark = sight.birth;
             records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
@@ -188,13 +194,14 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
     return log_likelihood;
 }
 
-double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
-                                 std::vector<SightRecord>& records) {
+double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                                 int view, std::vector<SightRecord>& records) {
     double log_likelihood = 0;
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         Place place;
-        if (sight.view != view || !sight.known_as.valid() || !features_.locate(sight.known_as, place)) continue;
+        if (sight.view != view || !sight.known_as.valid() || !features_.locate(sight.known_as, place))
+            continue;
         BernoulliFeature& feature = features_.write(place);
         const PointSight expected =
             sightOf(feature.point, placeOf(pose, scan.sensorOf(sight)), settings.transform);
@@ -209,8 +216,9 @@ double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, 
     return log_likelihood;
 }
 
-double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
-                                    Work& work, std::vector<SightRecord>& records, std::vector<double>& none) {
+double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                                    int view, Work& work, std::vector<SightRecord>& records,
+                                    std::vector<double>& none) {
     // The only view was looked through for the pairs. Another may see what the one before has started.
     const PoseBelief at{pose, Matrix3::Zero()};
     if (scan.views.size() > 1) {
@@ -235,9 +243,10 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
     }
     const StandingSensor sensor(at, scan.views[static_cast<std::size_t>(view)]);
     const double miss = 1 - settings.parameters.life.detection_probability;
-    log_likelihood -= settings.parameters.density *
-                      undetected_.look(sensor.position(), scan.views[static_cast<std::size_t>(view)].sensor.max_range,
-                                       [&](const Vector2& centre) { return sensor.covers(centre) ? miss : 1; });
+    log_likelihood -=
+        settings.parameters.density *
+        undetected_.look(sensor.position(), scan.views[static_cast<std::size_t>(view)].sensor.max_range,
+                         [&](const Vector2& centre) { return sensor.covers(centre) ? miss : 1; });
     work.mixtures.assign(work.near.size(), {});
     for (int c = 0; c < problem.candidates(); ++c) {
         const double p = marginals.pair[static_cast<std::size_t>(c)];
@@ -253,12 +262,12 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
         if (records[s].landmark == feature.id)
             records[s].outcome = isConfirmed(settings, feature) ? Outcome::updated : Outcome::tentative;
     }
-    for (std::size_t n = 0; n < work.near.size(); ++n)
-        take(scan.now, marginals.missed[n], n, work);
+    for (std::size_t n = 0; n < work.near.size(); ++n) take(scan.now, marginals.missed[n], n, work);
     findRivals(settings, problem, work);
     weighRivals(settings, pose, scan, marginals, work);
     for (const Work::Near& near : work.near)
-        if (features_.at(near.place).existence.lost(settings.parameters.life)) work.lost.push_back(near.place);
+        if (features_.at(near.place).existence.lost(settings.parameters.life))
+            work.lost.push_back(near.place);
     return log_likelihood;
 }
 
@@ -310,17 +319,20 @@ void BernoulliMap::letGo(const Settings& settings, Stamp now, Work& work) {
 }
 
 std::vector<ParameterTable> describe(BernoulliMapParameters& p, const std::string& name) {
-    ParameterTable association(name + ".association", "Which detection is of which landmark, in each particle.");
+    ParameterTable association(name + ".association",
+                               "Which detection is of which landmark, in each particle.");
     association
         .choice("landmarks", p.use_nameless, {{"marginal", true}, {"known", false}},
-                "For detections without identity. marginal: of each landmark with its probability over all pairings; "
+                "For detections without identity. marginal: of each landmark with its probability over all "
+                "pairings; "
                 "known: they are ignored.")
         .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
               "Part of a landmark's detections that lie inside its gate.")
         .real("pose_probability", p.pose_probability, "-", Interval::openProbability(),
               "A landmark refines the pose where its detection comes from it with this probability at least.")
-        .integer("state_budget", p.state_budget, Interval::between(1, 1000000),
-                 "States of the exact sums over pairings at most; beyond, belief propagation approximates them.");
+        .integer(
+            "state_budget", p.state_budget, Interval::between(1, 1000000),
+            "States of the exact sums over pairings at most; beyond, belief propagation approximates them.");
     ParameterTable landmarks(name + ".landmarks", "Life of landmarks without an identity.");
     landmarks.real("density", p.density, "1/m^2", Interval::nonNegative(),
                    "Landmarks to be expected where no sensor has looked yet.");

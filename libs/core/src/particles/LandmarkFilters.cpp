@@ -10,16 +10,14 @@
 namespace slamot {
 namespace {
 
-using Place = SharedPages<LandmarkFilter>::Place;
-
 /// [m] by which landmarks may lie off where they are looked for, beyond what a sensor reaches.
 constexpr double view_margin = 1.0;
 
 /// Never so hidden that a detection could not be its own.
 constexpr double least_visible = 1e-3;
 
-/// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked at:
-/// a gate in range and bearing is bent there.
+/// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked
+/// at: a gate in range and bearing is bent there.
 constexpr double bend = 4.0;
 
 /// Cheap: false for what lies clearly beside the field of view.
@@ -43,8 +41,8 @@ LandmarkFilters::Settings::Settings(const LandmarkFilterParameters& p, GaussianT
 // --- which sight is of which landmark
 // ---------------------------------------------------------------------------------------------------
 
-void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
-                             std::vector<SightRecord>& records) const {
+void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                             Work& work, std::vector<SightRecord>& records) const {
     scan.placesFrom(pose.mean, work.places);
     work.near.clear();
     work.near_of.assign(scan.sights.size(), -1);
@@ -69,16 +67,18 @@ void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, c
     }
 }
 
-PointSight LandmarkFilters::expectedAt(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
-                                       const Work& work, const ScanSight& sight, const GaussianPoint& point) {
+PointSight LandmarkFilters::expectedAt(const Settings& settings, const PoseBelief& pose,
+                                       const ParticleScan& scan, const Work& work, const ScanSight& sight,
+                                       const GaussianPoint& point) {
     return pose.isPoint() ? sightOf(point, work.placeOf(sight), settings.transform)
                           : sightOf(point, pose, scan.sensorOf(sight), settings.transform);
 }
 
 void LandmarkFilters::findNear(const Vector2& position, const ParticleScan& scan, Work& work) const {
-    landmarks_.forEachNear(position, scan.reach + view_margin, [&](Place place, const LandmarkFilter& landmark) {
-        work.near.push_back({place, landmark.point, false, landmark.source.valid()});
-    });
+    landmarks_.forEachNear(position, scan.reach + view_margin,
+                           [&](Place place, const LandmarkFilter& landmark) {
+                               work.near.push_back({place, landmark.point, false, landmark.source.valid()});
+                           });
 }
 
 void LandmarkFilters::pairNamed(const ParticleScan& scan, Work& work) const {
@@ -104,7 +104,8 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
                                    Work& work) const {
     const LandmarkFilterParameters& p = settings.parameters;
     const Matrix2 turn = rotation(pose.mean.z());
-    const double pose_variance = pose.factor.topRows<2>().squaredNorm(), turn_variance = pose.factor.row(2).squaredNorm();
+    const double pose_variance = pose.factor.topRows<2>().squaredNorm(),
+                 turn_variance = pose.factor.row(2).squaredNorm();
     const double log_detection = std::log(p.life.detection_probability);
     work.candidates.clear();
     work.wide.clear();
@@ -120,16 +121,17 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             const Work::Near& near = work.near[n];
             const double reach = bend * settings.separation_gate * (variance + near.point.covariance.trace());
             if (near.paired || (near.point.mean - at).squaredNorm() > reach) continue;
-            const PointInnovation innovation(expectedAt(settings, pose, scan, work, sight, near.point), sight.z,
-                                             sight.R);
+            const PointInnovation innovation(expectedAt(settings, pose, scan, work, sight, near.point),
+                                             sight.z, sight.R);
             if (innovation.nis > settings.separation_gate) continue;
             Candidate pair{static_cast<int>(s), static_cast<int>(n), innovation.nis, -0.5 * innovation.nis};
             work.wide.push_back(pair);
             if (innovation.nis > settings.gate) continue;
             if (p.association == ParticleAssociation::likelihood) {
-                // A landmark that hardly exists takes no harm from a detection of something else: its existence
-                // weighs among landmarks, not against that.
-                const double visible = std::max(landmarks_.at(near.place).existence.visibility(), least_visible);
+                // A landmark that hardly exists takes no harm from a detection of something else: its
+                // existence weighs among landmarks, not against that.
+                const double visible =
+                    std::max(landmarks_.at(near.place).existence.visibility(), least_visible);
                 pair.log_likelihood = innovation.logLikelihood() + log_detection;
                 if (pair.log_likelihood <= sight.log_unexplained) continue;
                 pair.log_likelihood += std::log(visible);
@@ -167,13 +169,14 @@ void LandmarkFilters::refine(const Settings& settings, const ParticleScan& scan,
         const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
         if (!near.named && !landmarks_.at(near.place).existence.confirmed(settings.parameters.life)) continue;
         const ScanSight& sight = scan.sights[s];
-        const PointSight expected = sightOf(near.point, pose.belief(), scan.sensorOf(sight), settings.transform);
+        const PointSight expected =
+            sightOf(near.point, pose.belief(), scan.sensorOf(sight), settings.transform);
         pose.take(expected, PointInnovation(expected, sight.z, sight.R));
     }
 }
 
-double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
-                               Work& work, std::vector<SightRecord>& records) {
+double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bool drawn,
+                               const ParticleScan& scan, Work& work, std::vector<SightRecord>& records) {
     if (drawn) scan.placesFrom(pose, work.places);
     double log_likelihood = 0;
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
@@ -250,7 +253,8 @@ double LandmarkFilters::missed(const Settings& settings, const ParticleScan& sca
 // --- what comes and goes
 // ---------------------------------------------------------------------------------------------------
 
-void LandmarkFilters::start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now) {
+void LandmarkFilters::start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight,
+                            Stamp now) {
     LandmarkFilter landmark;
     landmark.id = sight.birth;
     landmark.point = firstSight(sensor, sight.z, sight.R, settings.transform);
@@ -277,7 +281,8 @@ void LandmarkFilters::letGo(const Settings& settings, Stamp now, Work& work) {
 }
 
 std::vector<ParameterTable> describe(LandmarkFilterParameters& p, const std::string& name) {
-    ParameterTable association(name + ".association", "Which detection is of which landmark, in each particle.");
+    ParameterTable association(name + ".association",
+                               "Which detection is of which landmark, in each particle.");
     association
         .choice("landmarks", p.association,
                 {{"likelihood", ParticleAssociation::likelihood},

@@ -59,31 +59,18 @@ SensorFile readSensorFile(const std::string& file) {
     return values;
 }
 
-double finite(const CsvReader& csv, int column) {
-    const double value = csv.number(column);
-    if (!std::isfinite(value)) csv.fail(column, "a finite number");
-    return value;
-}
-
-Stamp risingStamp(const CsvReader& csv, int column, const std::vector<OdometryReading>& readings) {
-    const Stamp stamp = csv.stamp(column);
-    if (!readings.empty() && stamp <= readings.back().stamp)
-        csv.fail(column, "a time later than the row before, which has " + toText(readings.back().stamp));
-    return stamp;
-}
-
 /// Velocities of the interval that ends at the row's time.
 std::vector<OdometryReading> readVelocities(CsvReader& csv, const SensorFile& values) {
     const bool steered = values.model == RobotMotionModel::steered;
     const int t = csv.column("t"), v = csv.column("v"), turning = csv.column(steered ? "gamma" : "omega");
     std::vector<OdometryReading> readings;
     while (csv.next()) {
-        const Stamp stamp = risingStamp(csv, t, readings);
-        if (steered && std::abs(finite(csv, turning)) >= pi / 2)
+        const Stamp stamp = csv.risingStamp(t, readings);
+        if (steered && std::abs(csv.finite(turning)) >= pi / 2)
             csv.fail(turning, "a steering angle of less than a quarter turn");
         const BodyVelocity velocity =
-            steered ? steeredToBody(finite(csv, v), finite(csv, turning), values.wheelbase)
-                    : BodyVelocity{finite(csv, v), 0, finite(csv, turning)};
+            steered ? steeredToBody(csv.finite(v), csv.finite(turning), values.wheelbase)
+                    : BodyVelocity{csv.finite(v), 0, csv.finite(turning)};
         const Pose2 pose = readings.empty() ? Pose2{}
                                             : moved(readings.back().pose, velocity,
                                                     secondsBetween(readings.back().stamp, stamp));
@@ -96,9 +83,9 @@ std::vector<OdometryReading> readPoses(CsvReader& csv) {
     const int t = csv.column("t"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
     std::vector<OdometryReading> readings;
     while (csv.next()) {
-        const Stamp stamp = risingStamp(csv, t, readings);
+        const Stamp stamp = csv.risingStamp(t, readings);
         readings.push_back(
-            {stamp, {finite(csv, x), finite(csv, y), wrapAngle(finite(csv, theta))}, std::nullopt});
+            {stamp, {csv.finite(x), csv.finite(y), wrapAngle(csv.finite(theta))}, std::nullopt});
     }
     return readings;
 }

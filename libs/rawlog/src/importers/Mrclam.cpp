@@ -21,11 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t first_landmark_subject = 6;  // those before are the robots, in their order
 
-// What the camera claims: spread of its readings against motion capture, rounded up (range 0.07-0.18 m,
+namespace camera {
+// What it claims: spread of its readings against motion capture, rounded up (range 0.07-0.18 m,
 // bearing 0.005-0.019 rad over the robots).
-constexpr double claimed_std_range = 0.15, claimed_std_bearing = 0.02;
+constexpr double std_range = 0.15, std_bearing = 0.02;
 // Limits that contain every reading of set 6 (0.94 to 8.63 m, -0.592 to 0.572 rad).
 constexpr double min_range = 0.5, max_range = 10.0, field_of_view = 1.2;
+}  // namespace camera
 constexpr double capture_std = 0.001;  // "on the order of 1e-3 m", Leung et al.
 
 constexpr const char* dataset = "the MRCLAM dataset";
@@ -171,13 +173,14 @@ ImportResult importMrclam(const std::string& in, const std::string& out, const I
         log.odometry = integrate(readCommands(folder / fmt::format("Robot{}_Odometry.dat", k), doubled));
         log.detections =
             readDetections(folder / fmt::format("Robot{}_Measurement.dat", k), subjects, k, counts);
-        log.sensor.min_range = min_range;
-        log.sensor.max_range = max_range;
-        log.sensor.field_of_view = field_of_view;
-        log.std_range = claimed_std_range;
-        log.std_bearing = claimed_std_bearing;
+        log.sensor.min_range = camera::min_range;
+        log.sensor.max_range = camera::max_range;
+        log.sensor.field_of_view = camera::field_of_view;
+        log.std_range = camera::std_range;
+        log.std_bearing = camera::std_bearing;
         const auto outside = std::count_if(log.detections.begin(), log.detections.end(), [](const auto& d) {
-            return d.range < min_range || d.range > max_range || std::abs(d.bearing) > field_of_view / 2;
+            return d.range < camera::min_range || d.range > camera::max_range ||
+                   std::abs(d.bearing) > camera::field_of_view / 2;
         });
         const double share = 1.0 / static_cast<double>(robots.size());
         const std::string file = (target / fmt::format("robot_{}.rawlog", k)).string();

@@ -24,10 +24,12 @@ namespace {
 
 // The encoder is at the left rear wheel, half_track off the middle of the axle.
 constexpr double wheelbase = 2.83, half_track = 0.76;
+namespace scanner {
 // Contain every reading (1.48 to 75.3 m); the laser sees half a turn and its makers say 80 m.
 constexpr double min_range = 1.0, max_range = 80.0, field_of_view = pi;
 // What the log claims for a trunk's centre; see doc/file_formats.md.
-constexpr double claimed_std_range = 0.2, claimed_std_bearing = 0.014;
+constexpr double std_range = 0.2, std_bearing = 0.014;
+}  // namespace scanner
 constexpr const char* label = "landmarks";
 constexpr int laser_in_manager = 3;
 
@@ -138,11 +140,11 @@ ImportResult importVictoriaPark(const std::string& in, const std::string& out,
     log.empty_scans = readEmptyScans(folder / "Sensors_manager.txt", log.detections);
     log.empty_label = label;
     log.sensor.pose = laser;
-    log.sensor.min_range = min_range;
-    log.sensor.max_range = max_range;
-    log.sensor.field_of_view = field_of_view;
-    log.std_range = claimed_std_range;
-    log.std_bearing = claimed_std_bearing;
+    log.sensor.min_range = scanner::min_range;
+    log.sensor.max_range = scanner::max_range;
+    log.sensor.field_of_view = scanner::field_of_view;
+    log.std_range = scanner::std_range;
+    log.std_bearing = scanner::std_bearing;
     Truth truth;
     std::vector<Stamp> wild;
     truth.robot = readGps(folder / "gps.dat", wild);

@@ -6,7 +6,7 @@
 #include "slamot/report/ShellWord.h"
 
 namespace slamot::report {
-namespace {
+namespace section_configuration {
 
 std::string always(const RunFolder&) {
     return {};
@@ -56,12 +56,13 @@ std::vector<Block> configuration(const RunFolder& run) {
         Verbatim{run.text("estimate_sha256"), "", false}};
 }
 
-}  // namespace
+}  // namespace section_configuration
 
 const ReportSection drop_section{
     "drops", "Dropped data", "Parts of the log that the run left out, with the reason (doc/output_files.md).",
-    always, drops};
+    section_configuration::always, section_configuration::drops};
 
-const ReportSection configuration_section{"configuration", "Configuration", "", always, configuration};
+const ReportSection configuration_section{"configuration", "Configuration", "", section_configuration::always,
+                                          section_configuration::configuration};
 
 }  // namespace slamot::report

@@ -6,7 +6,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_correlation {
 
 constexpr int robot_dimensions = 3, track_dimensions = 6;
 
@@ -78,12 +78,12 @@ std::vector<Block> blocks(const RunFolder& run) {
                    figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_correlation
 
 const ReportSection correlation_section{
     "correlation", "Correlations",
     "At the end of the run. A map holds together by its correlations: blocks near 1 move as one. The sign is "
     "left out: it says only where the robot stood.",
-    absent, blocks};
+    section_correlation::absent, section_correlation::blocks};
 
 }  // namespace slamot::report

@@ -7,7 +7,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_counts {
 
 std::string absent(const RunFolder& run) {
     return run.steps.empty() ? "steps.csv is not there or empty ([output] steps)" : "";
@@ -63,8 +63,9 @@ std::vector<Block> blocks(const RunFolder& run) {
                        figure, ""}};
 }
 
-}  // namespace
+}  // namespace section_counts
 
-const ReportSection count_section{"counts", "Landmark and track counts", "", absent, blocks};
+const ReportSection count_section{"counts", "Landmark and track counts", "", section_counts::absent,
+                                  section_counts::blocks};
 
 }  // namespace slamot::report

@@ -12,7 +12,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_landmark_errors {
 
 constexpr std::size_t sample_count = 300;
 
@@ -188,13 +188,13 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {PageFigure{"landmark_errors", "Error of the landmarks over time. " + caption, figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_landmark_errors
 
 const ReportSection landmark_error_section{
     "landmark-errors", "Landmark errors",
     "Over the true landmarks in the map at a time, each as its estimate was when last seen by then; of "
     "several "
     "estimates the one seen most. What is not in the map at the end counts until it was last seen.",
-    absent, blocks};
+    section_landmark_errors::absent, section_landmark_errors::blocks};
 
 }  // namespace slamot::report

@@ -6,7 +6,7 @@
 #include "slamot/report/Overview.h"
 
 namespace slamot::report {
-namespace {
+namespace section_map {
 
 std::string absent(const RunFolder& run) {
     return run.run.trajectory.empty() ? "the run has no step" : "";
@@ -26,12 +26,12 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {PageFigure{"map", alt, figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_map
 
 const ReportSection map_section{
     "map", "Map",
     "Estimates are thin full lines, what is true is the wide pale line of the same colour; "
     "true landmarks are grey crosses. Ellipses are at three standard deviations.",
-    absent, blocks};
+    section_map::absent, section_map::blocks};
 
 }  // namespace slamot::report

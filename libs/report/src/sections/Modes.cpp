@@ -8,7 +8,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_modes {
 
 std::string absent(const RunFolder& run) {
     return run.run.tracks.empty()          ? "the run has no track"
@@ -79,9 +79,9 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {PageFigure{"modes", alt, figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_modes
 
-const ReportSection mode_section{"modes", "Mode probabilities", "How each track is taken to move.", absent,
-                                 blocks};
+const ReportSection mode_section{"modes", "Mode probabilities", "How each track is taken to move.",
+                                 section_modes::absent, section_modes::blocks};
 
 }  // namespace slamot::report

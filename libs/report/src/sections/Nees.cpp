@@ -10,7 +10,7 @@
 #include "slamot/eval/Metrics.h"
 
 namespace slamot::report {
-namespace {
+namespace section_nees {
 
 /// A logarithmic panel with the chi-square band of `degrees`.
 Panel neesPanel(const RunFolder& run, const std::string& title, int degrees, Line line) {
@@ -131,7 +131,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {PageFigure{"nees", "NEES over time with chi-square bands. " + caption, figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_nees
 
 const ReportSection nees_section{
     "nees", "NEES",
@@ -139,6 +139,6 @@ const ReportSection nees_section{
     "the estimate is surer "
     "than it may be, below it is too careful. Steps of one run depend on each other: "
     "one run leaves the band for a while by chance; a study over many seeds decides.",
-    absent, blocks};
+    section_nees::absent, section_nees::blocks};
 
 }  // namespace slamot::report

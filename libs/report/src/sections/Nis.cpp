@@ -13,7 +13,7 @@
 #include "slamot/eval/Consistency.h"
 
 namespace slamot::report {
-namespace {
+namespace section_nis {
 
 constexpr int degrees = 2;  // range and bearing
 constexpr std::size_t most_windows = 80, most_groups = 4;
@@ -149,7 +149,7 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {PageFigure{"nis", alt, figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_nis
 
 const ReportSection nis_section{
     "nis", "NIS",
@@ -157,6 +157,6 @@ const ReportSection nis_section{
     "innovation should be of chi-square law "
     "with two degrees of freedom (mean 2); the thick line is the mean over a window of time, the "
     "green band where it should lie.",
-    absent, blocks};
+    section_nis::absent, section_nis::blocks};
 
 }  // namespace slamot::report

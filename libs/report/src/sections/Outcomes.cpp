@@ -7,7 +7,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_outcomes {
 
 constexpr std::size_t most_windows = 120;
 
@@ -73,7 +73,7 @@ std::vector<Block> blocks(const RunFolder& run) {
                        caption}};
 }
 
-}  // namespace
+}  // namespace section_outcomes
 
 const ReportSection outcome_section{
     "outcomes", "Association outcomes",
@@ -81,6 +81,6 @@ const ReportSection outcome_section{
     "at full weight; inflated: used with enlarged noise; initiated: started a landmark or a "
     "track; tentative: of something not known to exist yet; rejected: outside the gate; "
     "ignored: of no use to the estimator.",
-    absent, blocks};
+    section_outcomes::absent, section_outcomes::blocks};
 
 }  // namespace slamot::report

@@ -12,7 +12,7 @@
 #include "slamot/core/data/Angle.h"
 
 namespace slamot::report {
-namespace {
+namespace section_particles {
 
 constexpr std::size_t most_windows = 150;
 
@@ -22,7 +22,8 @@ std::string absent(const RunFolder& run) {
                : "";
 }
 
-/// 1 / sum w^2 over different poses: copies that resampling has made, which a draw has not parted yet, are one.
+/// 1 / sum w^2 over different poses: copies that resampling has made, which a draw has not parted yet, are
+/// one.
 double effectiveNumber(const ParticleSet& set) {
     std::map<std::tuple<double, double, double>, double> weights;
     for (const auto& [number, weight, pose] : set.rows) {
@@ -128,23 +129,27 @@ std::vector<Block> blocks(const RunFolder& run) {
     }
     const Counts counts = countsOf(run);
     Figure figure;
-    figure.panels = {numberPanel(run, counts, numbers), spreadPanel(run, "Spread of position", "m", positions),
+    figure.panels = {numberPanel(run, counts, numbers),
+                     spreadPanel(run, "Spread of position", "m", positions),
                      spreadPanel(run, "Spread of heading", "°", headings)};
-    std::string caption = fmt::format("Of {} particles the median effective number is {:.1f}, the lowest {:.1f}.",
-                                      counts.all, quantile(numbers, 0.5), quantile(numbers, 0));
+    std::string caption =
+        fmt::format("Of {} particles the median effective number is {:.1f}, the lowest {:.1f}.", counts.all,
+                    quantile(numbers, 0.5), quantile(numbers, 0));
     if (static_cast<std::int64_t>(counts.kept) < counts.all) {
-        caption += fmt::format(" The file has {} of them at a stamp, chosen by weight: no more are counted.", counts.kept);
+        caption += fmt::format(" The file has {} of them at a stamp, chosen by weight: no more are counted.",
+                               counts.kept);
     }
-    return {PageFigure{"particles", "Effective number of particles and their spread over time. " + caption, figure,
-                       caption}};
+    return {PageFigure{"particles", "Effective number of particles and their spread over time. " + caption,
+                       figure, caption}};
 }
 
-}  // namespace
+}  // namespace section_particles
 
 const ReportSection particle_section{
     "particles", "Particles",
-    "Effective number: 1 over the sum of squared weights; copies that resampling made count as one until they part. "
+    "Effective number: 1 over the sum of squared weights; copies that resampling made count as one until "
+    "they part. "
     "Spread: standard deviations of the particles' poses, of position in the direction where it is largest.",
-    absent, blocks};
+    section_particles::absent, section_particles::blocks};
 
 }  // namespace slamot::report

@@ -6,7 +6,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_replay {
 
 std::string absent(const RunFolder& run) {
     return run.run.trajectory.size() < 2 ? "the run has fewer than two steps" : "";
@@ -25,13 +25,13 @@ std::vector<Block> blocks(const RunFolder& run) {
     return {replay};
 }
 
-}  // namespace
+}  // namespace section_replay
 
 const ReportSection replay_section{"replay", "Replay",
                                    "Drag the slider, or choose the map and use the arrow keys, Page up and "
                                    "down, Home, End and space; + and - enlarge, 0 "
                                    "shows all. Each landmark is drawn as it was when last seen; one that is "
                                    "not in the map at the end, until then.",
-                                   absent, blocks};
+                                   section_replay::absent, section_replay::blocks};
 
 }  // namespace slamot::report

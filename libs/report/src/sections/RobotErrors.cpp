@@ -8,7 +8,7 @@
 #include "slamot/core/data/Angle.h"
 
 namespace slamot::report {
-namespace {
+namespace section_robot_errors {
 
 std::string absent(const RunFolder& run) {
     return !run.truth          ? "no truth: " + run.why_no_truth
@@ -58,12 +58,12 @@ std::vector<Block> blocks(const RunFolder& run) {
                        caption}};
 }
 
-}  // namespace
+}  // namespace section_robot_errors
 
 const ReportSection robot_error_section{
     "robot-errors", "Robot errors",
     "Estimate minus truth, in the world's axes, unaligned, with a band of three standard "
     "deviations of the estimate.",
-    absent, blocks};
+    section_robot_errors::absent, section_robot_errors::blocks};
 
 }  // namespace slamot::report

@@ -5,7 +5,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_summary {
 
 PageTable metricsTable(const RunFolder& run) {
     PageTable table{"Metrics", {{"", false}, {"value"}}, {}};
@@ -67,12 +67,12 @@ std::vector<Block> blocks(const RunFolder& run) {
     return result;
 }
 
-}  // namespace
+}  // namespace section_summary
 
 const ReportSection summary_section{"summary", "Summary",
                                     "NEES per degree of freedom is 1 where covariances tell the truth, more "
                                     "where they promise too much. Metrics are "
                                     "defined in doc/metrics.md.",
-                                    absent, blocks};
+                                    section_summary::absent, section_summary::blocks};
 
 }  // namespace slamot::report

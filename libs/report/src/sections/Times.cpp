@@ -8,7 +8,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_times {
 
 constexpr std::size_t most_windows = 150;
 
@@ -67,10 +67,11 @@ std::vector<Block> blocks(const RunFolder& run) {
         timeTable(run)};
 }
 
-}  // namespace
+}  // namespace section_times
 
 const ReportSection time_section{
     "step-time", "Step time",
-    "A step is everything from one set of detections to the next, prediction included.", absent, blocks};
+    "A step is everything from one set of detections to the next, prediction included.",
+    section_times::absent, section_times::blocks};
 
 }  // namespace slamot::report

@@ -9,7 +9,7 @@
 #include "sections/Sections.h"
 
 namespace slamot::report {
-namespace {
+namespace section_track_errors {
 
 /// Errors in x, y and in the velocities along them, at every stamp of the run; NaN where the object has no
 /// track.
@@ -90,10 +90,11 @@ std::vector<Block> blocks(const RunFolder& run) {
     return result;
 }
 
-}  // namespace
+}  // namespace section_track_errors
 
 const ReportSection track_error_section{
     "track-errors", "Track errors",
-    "Estimate minus truth in the world's axes, with a band of three standard deviations.", absent, blocks};
+    "Estimate minus truth in the world's axes, with a band of three standard deviations.",
+    section_track_errors::absent, section_track_errors::blocks};
 
 }  // namespace slamot::report

@@ -34,12 +34,22 @@ class CsvReader {
     std::string text(int column) const;
     /// NaN for an empty field; "nan", "inf" and "-inf" are numbers.
     double number(int column) const;
+    double finite(int column) const;
     std::int64_t integer(int column) const;
     /// Decimal seconds, exact to a tick.
     Stamp stamp(int column) const;
+    /// Later than that of the last of `samples`.
+    template <class Sample>
+    Stamp risingStamp(int column, const std::vector<Sample>& samples) const {
+        const Stamp now = stamp(column);
+        if (!samples.empty() && now <= samples.back().stamp) failNotRising(column, samples.back().stamp);
+        return now;
+    }
     [[noreturn]] void fail(int column, const std::string& expected) const;
 
   private:
+    [[noreturn]] void failNotRising(int column, Stamp before) const;
+
     std::string file_;
     LastLine last_line_;
     std::ifstream in_;

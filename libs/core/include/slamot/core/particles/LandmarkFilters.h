@@ -1,7 +1,7 @@
 #pragma once
-// One particle's map as Gaussians of single landmarks, independent given the particle's path: FastSLAM's map (paper 2,
-// eq. 12 to 18; paper 4, eq. 24 to 31). Landmarks are known by the identity the log gives or by association in each
-// particle; those without identity exist with a probability.
+// One particle's map as Gaussians of single landmarks, independent given the particle's path: FastSLAM's map
+// (paper 2, eq. 12 to 18; paper 4, eq. 24 to 31). Landmarks are known by the identity the log gives or by
+// association in each particle; those without identity exist with a probability.
 #include <vector>
 
 #include "slamot/core/association/AssociationProblem.h"
@@ -46,6 +46,7 @@ struct LandmarkFilter {
 
 class LandmarkFilters {
   public:
+    using Place = SharedPages<LandmarkFilter>::Place;
     /// What all particles' maps have in common.
     struct Settings {
         Settings(const LandmarkFilterParameters& parameters, GaussianTransform transform);
@@ -56,20 +57,20 @@ class LandmarkFilters {
     /// Room for one update, used again for the next particle.
     struct Work {
         struct Near {
-            SharedPages<LandmarkFilter>::Place place;
+            Place place;
             GaussianPoint point;
             bool paired, named;
         };
-        std::vector<SensorPlace> places;  ///< of the sensors, by view
-        std::vector<Near> near;           ///< what may be in view
-        std::vector<int> near_of;         ///< by sight: what it is of, -1 none
-        std::vector<PointSight> expected; ///< by sight, at the predicted pose
-        std::vector<bool> may_start;      ///< by sight
-        /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of sights, with
-        /// the movers' own numbers. A sight that is likelier one of theirs is left to them.
+        std::vector<SensorPlace> places;   ///< of the sensors, by view
+        std::vector<Near> near;            ///< what may be in view
+        std::vector<int> near_of;          ///< by sight: what it is of, -1 none
+        std::vector<PointSight> expected;  ///< by sight, at the predicted pose
+        std::vector<bool> may_start;       ///< by sight
+        /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of
+        /// sights, with the movers' own numbers. A sight that is likelier one of theirs is left to them.
         std::vector<Candidate> rivals;
         std::vector<Candidate> candidates, wide;
-        std::vector<SharedPages<LandmarkFilter>::Place> lost;
+        std::vector<Place> lost;
 
         const SensorPlace& placeOf(const ScanSight& sight) const {
             return places[static_cast<std::size_t>(sight.view)];
@@ -82,10 +83,12 @@ class LandmarkFilters {
     void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
                 std::vector<SightRecord>& records) const;
     /// The pose with what landmarks that exist beyond doubt say of it, sight after sight.
-    void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
-    /// Takes the scan in at a known pose; `drawn`: it is not the one that pairs were found at. Returns the log of its likelihood given the map before.
-    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
-                  std::vector<SightRecord>& records);
+    void refine(const Settings& settings, const ParticleScan& scan, const Work& work,
+                RefinedPose& pose) const;
+    /// Takes the scan in at a known pose; `drawn`: it is not the one that pairs were found at. Returns the
+    /// log of its likelihood given the map before.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
+                  Work& work, std::vector<SightRecord>& records);
 
     /// A landmark that all particles are given at once; its number lies above all others'.
     void add(const LandmarkFilter& landmark) { landmarks_.append(landmark); }
@@ -108,9 +111,10 @@ class LandmarkFilters {
                                  const Work& work, const ScanSight& sight, const GaussianPoint& point);
     void findNear(const Vector2& position, const ParticleScan& scan, Work& work) const;
     void pairNamed(const ParticleScan& scan, Work& work) const;
-    void pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
+    void pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
+                      Work& work) const;
     double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight, Stamp now,
-                    SharedPages<LandmarkFilter>::Place place);
+                    Place place);
     double missed(const Settings& settings, const ParticleScan& scan, Work& work);
     void start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now);
     void letGo(const Settings& settings, Stamp now, Work& work);
