@@ -1,5 +1,5 @@
-// particle_bench: the step time and error of the particle filters on a world like RFS-SLAM's, and how time and memory
-// grow with particles and landmarks. doc/results/particles.md is filled by it.
+// particle_bench: the step time and error of the particle filters on a world like RFS-SLAM's, and how time
+// and memory grow with particles and landmarks. doc/results/particles.md is filled by it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,16 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What RFS-SLAM's own programs take on a world of their own with as many particles and landmarks (ms a step, m):
-/// measured by hand on a machine of this kind, since it is no Debian package.
-struct Peer {
-    const char* label;
-    double milliseconds, error;
+/// What RFS-SLAM's two programs take for a step of their own world [ms]. It is no Debian package, so that
+/// they are run by hand on the same machine and told here; without that, what they took on another.
+struct Peers {
+    double fastslam = 2.3, rb_phd = 11.4;
 };
-constexpr Peer peers[] = {{"RFS-SLAM FastSLAM 1.0", 2.3, 0.166}, {"RFS-SLAM RB-PHD", 11.4, 0.209}};
 
 struct Options {
     int seeds = 5;
+    Peers peers;
     std::vector<int> particles{10, 30, 100, 300, 1000}, landmarks{50, 200, 800, 3200, 10000};
     bool only_world = false;
     std::string out = "particles", page;
@@ -36,14 +35,23 @@ std::vector<Contender> contenders() {
     const auto fast = [&](const std::string& version) {
         return "[fastslam]\nparticles = 200\nversion = " + version + "\n[fastslam.landmarks]\n" + life;
     };
-    const std::string phd = "[gmphd_ufastslam]\nparticles = 200\n";
+    const std::string phd = "[gmphd_ufastslam]\nparticles = 200\n[gmphd_ufastslam.map]\n" + life;
+    const std::string bernoulli = "[pmb_ufastslam]\nparticles = 200\n[pmb_ufastslam.landmarks]\n" + life;
     const std::string unscented = "[ufastslam]\nparticles = 200\n[ufastslam.landmarks]\n" + life;
     return {{"FastSLAM 1.0, identities known", "fastslam", true, fast("1")},
             {"FastSLAM 1.0", "fastslam", false, fast("1")},
             {"FastSLAM 2.0, identities known", "fastslam", true, fast("2")},
             {"FastSLAM 2.0", "fastslam", false, fast("2")},
             {"UFastSLAM, identities known", "ufastslam", true, unscented},
-            {"UFastSLAM", "ufastslam", false, unscented}};
+            {"UFastSLAM", "ufastslam", false, unscented},
+            {"GM-PHD-UFastSLAM", "gmphd_ufastslam", false, phd},
+            {"PMB-UFastSLAM", "pmb_ufastslam", false, bernoulli}};
+}
+
+/// Of RFS-SLAM's programs, the one of the same kind.
+double peerOf(const Contender& contender, const Peers& peers) {
+    const bool of_sets = contender.plugin == "gmphd_ufastslam" || contender.plugin == "pmb_ufastslam";
+    return of_sets ? peers.rb_phd : peers.fastslam;
 }
 
 struct WorldResult {
@@ -57,7 +65,7 @@ struct Results {
     std::vector<ScaleRun> by_particles, by_landmarks;
 };
 
-WorldResult measure(const Contender& contender, int seeds) {
+WorldResult measure(const Contender& contender, int seeds, const Peers& peers) {
     std::vector<StepTime> times;
     double rmse = 0, landmarks = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -67,43 +75,47 @@ WorldResult measure(const Contender& contender, int seeds) {
         landmarks += run.final_landmarks / seeds;
     }
     const TimeSummary summary = summarise(times);
-    std::cerr << fmt::format("{}: {:.3f} ms a step, {:.3f} m, {:.1f} landmarks\n", contender.label, summary.mean, rmse,
-                             landmarks);
-    return {contender, summary, rmse, landmarks, peers[0].milliseconds / summary.mean};
+    std::cerr << fmt::format("{}: {:.3f} ms a step, {:.3f} m, {:.1f} landmarks\n", contender.label,
+                             summary.mean, rmse, landmarks);
+    return {contender, summary, rmse, landmarks, peerOf(contender, peers) / summary.mean};
 }
 
 ScaleRun measureScale(int particles, int landmarks) {
     ScaleRun run = runScale(particles, landmarks);
-    std::cerr << fmt::format("{} particles, {} landmarks: {:.3g} ms, {:.3g} MB, {:.2g} m off at the end\n", particles,
-                             landmarks, summarise(run.times).median, 1e-6 * static_cast<double>(run.resident),
-                             run.end_error);
+    std::cerr << fmt::format("{} particles, {} landmarks: {:.3g} ms, {:.3g} MB, {:.2g} m off at the end\n",
+                             particles, landmarks, summarise(run.times).median,
+                             1e-6 * static_cast<double>(run.resident), run.end_error);
     return run;
 }
 
 study::Table worldTable(const std::vector<WorldResult>& results) {
     study::Table table;
-    table.columns = {textColumn("Estimator", "estimator"),      numberColumn("Mean, ms", "mean_ms"),
-                     numberColumn("Median", "median_ms"),       numberColumn("99 %", "p99_ms"),
-                     numberColumn("Robot RMSE, m", "rmse_m"),   numberColumn("Landmarks", "landmarks"),
+    table.columns = {textColumn("Estimator", "estimator"),    numberColumn("Mean, ms", "mean_ms"),
+                     numberColumn("Median", "median_ms"),     numberColumn("99 %", "p99_ms"),
+                     numberColumn("Robot RMSE, m", "rmse_m"), numberColumn("Landmarks", "landmarks"),
                      numberColumn("Times faster", "faster")};
     for (const WorldResult& r : results)
-        table.lines.push_back({{textField(r.contender.label), numberField(r.times.mean), numberField(r.times.median),
-                              numberField(r.times.p99), numberField(r.rmse), numberField(r.landmarks),
-                              numberField(r.peer_ratio)}});
+        table.lines.push_back({{textField(r.contender.label), numberField(r.times.mean),
+                                numberField(r.times.median), numberField(r.times.p99), numberField(r.rmse),
+                                numberField(r.landmarks), numberField(r.peer_ratio)}});
     return table;
 }
 
 study::Table scaleTable(const std::vector<ScaleRun>& runs) {
     study::Table table;
-    table.columns = {numberColumn("Particles", "particles"), numberColumn("Landmarks", "landmarks"),
-                     numberColumn("Seen a step", "seen"),    numberColumn("Median, ms", "median_ms"),
-                     numberColumn("99 %", "p99_ms"),         numberColumn("Memory, MB", "memory_mb"),
+    table.columns = {numberColumn("Particles", "particles"),
+                     numberColumn("Landmarks", "landmarks"),
+                     numberColumn("Seen a step", "seen"),
+                     numberColumn("Median, ms", "median_ms"),
+                     numberColumn("99 %", "p99_ms"),
+                     numberColumn("Memory, MB", "memory_mb"),
                      numberColumn("Off at the end, m", "end_error_m")};
     for (const ScaleRun& run : runs) {
         const TimeSummary times = summarise(run.times);
-        table.lines.push_back({{countField(run.particles), countField(run.landmarks), numberField(run.seen),
-                              numberField(times.median), numberField(times.p99),
-                              numberField(1e-6 * static_cast<double>(run.resident)), numberField(run.end_error)}});
+        table.lines.push_back(
+            {{countField(run.particles), countField(run.landmarks), numberField(run.seen),
+              numberField(times.median), numberField(times.p99),
+              numberField(1e-6 * static_cast<double>(run.resident)), numberField(run.end_error)}});
     }
     return table;
 }
@@ -127,8 +139,9 @@ report::Figure scaleFigure(const Results& results) {
                          const std::string& note) {
         report::Panel time = logarithmicPanel(over, "Processor time of a step", "ms");
         addCurve(time, "median", curve(runs, x, median), colour::blue);
-        addCurve(time, "99th percentile", curve(runs, x, [](const ScaleRun& run) { return summarise(run.times).p99; }),
-                 colour::blue, report::Dash::dashed);
+        addCurve(time, "99th percentile",
+                 curve(runs, x, [](const ScaleRun& run) { return summarise(run.times).p99; }), colour::blue,
+                 report::Dash::dashed);
         time.note = note;
         report::Panel bytes = logarithmicPanel(over, "Memory of the process", "MB");
         addCurve(bytes, "growth at its peak", curve(runs, x, memory), colour::vermillion);
@@ -144,10 +157,13 @@ report::Figure scaleFigure(const Results& results) {
 
 Results measureAll(const Options& options) {
     Results results;
-    for (const Contender& contender : contenders()) results.world.push_back(measure(contender, options.seeds));
+    for (const Contender& contender : contenders())
+        results.world.push_back(measure(contender, options.seeds, options.peers));
     if (options.only_world) return results;
-    for (const int particles : options.particles) results.by_particles.push_back(measureScale(particles, 800));
-    for (const int landmarks : options.landmarks) results.by_landmarks.push_back(measureScale(100, landmarks));
+    for (const int particles : options.particles)
+        results.by_particles.push_back(measureScale(particles, 800));
+    for (const int landmarks : options.landmarks)
+        results.by_landmarks.push_back(measureScale(100, landmarks));
     return results;
 }
 
@@ -180,11 +196,17 @@ int main(int argc, char** argv) {
     slamot::bench::Options options;
     CLI::App app("Time, memory and error of the particle filters.");
     app.add_option("--seeds", options.seeds, "Runs of each estimator")->check(CLI::Range(1, 1000));
-    app.add_option("--particles", options.particles, "Numbers of particles, separated by commas")->delimiter(',');
-    app.add_option("--landmarks", options.landmarks, "Numbers of landmarks, separated by commas")->delimiter(',');
+    app.add_option("--peer-fastslam", options.peers.fastslam,
+                   "What RFS-SLAM's fastslam2dSim takes a step, ms");
+    app.add_option("--peer-rb-phd", options.peers.rb_phd, "What RFS-SLAM's rbphdslam2dSim takes a step, ms");
+    app.add_option("--particles", options.particles, "Numbers of particles, separated by commas")
+        ->delimiter(',');
+    app.add_option("--landmarks", options.landmarks, "Numbers of landmarks, separated by commas")
+        ->delimiter(',');
     app.add_option("--out", options.out, "Folder of the tables");
     app.add_option("--fill", options.page, "Page whose marks `<!-- bench particles ... -->` are filled");
-    app.add_flag("--only-world", options.only_world, "Nothing but the world like RFS-SLAM's")->excludes("--fill");
+    app.add_flag("--only-world", options.only_world, "Nothing but the world like RFS-SLAM's")
+        ->excludes("--fill");
     CLI11_PARSE(app, argc, argv);
     try {
         slamot::bench::run(options, fmt::format("{}", fmt::join(argv, argv + argc, " ")));
