@@ -55,9 +55,12 @@ TEST(Association, ByHand) {
     // Track 0 has mover 5, which is not landmark 5; mover 9 went nowhere.
     log.mover(5).toTrack(0, Outcome::initiated);
     log.mover(9);
+    // Landmark 2 has seen nothing, landmark 1 stands for what landmark 0 does.
+    log.run.landmarks = {landmark(0, -1, 0, 0), landmark(1, -1, 0, 0), landmark(2, -1, 0, 0)};
     const auto m = associationMetrics(log.run, log.truth);
     ASSERT_TRUE(m);
     EXPECT_EQ(m->used, 10);
+    EXPECT_EQ(m->doubled_landmarks, 1);
     // Of six detections of landmarks, the three of source 5 in landmark 0.
     EXPECT_EQ(m->landmarks.detections, 6);
     EXPECT_EQ(m->landmarks.found, 3);

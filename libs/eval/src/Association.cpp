@@ -129,6 +129,16 @@ void divide(AssociationScores& scores) {
     part(scores.right, scores.associated, scores.precision);
 }
 
+std::int64_t doubledIn(const std::vector<LandmarkEstimate>& map, const std::map<Object, Source>& stands_for) {
+    std::set<Source> met;
+    std::int64_t doubled = 0;
+    for (const LandmarkEstimate& landmark : map) {
+        const auto source = stands_for.find(Object{false, landmark.id.value});
+        if (source != stands_for.end()) doubled += !met.insert(source->second).second;
+    }
+    return doubled;
+}
+
 }  // namespace
 
 Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Truth& truth) {
@@ -179,6 +189,7 @@ Measured<AssociationMetrics> associationMetrics(const RunRecord& run, const Trut
             scores.right += source && meant != stands_for.end() && meant->second == *source;
         }
     }
+    metrics.doubled_landmarks = doubledIn(run.landmarks, stands_for);
     add(metrics.all, metrics.landmarks);
     add(metrics.all, metrics.movers);
     for (AssociationScores* scores : {&metrics.all, &metrics.landmarks, &metrics.movers}) divide(*scores);

@@ -102,7 +102,8 @@ Json json(const AssociationMetrics& a) {
             {"used", a.used},
             {"without_truth", a.without_truth},
             {"unnumbered", a.unnumbered},
-            {"tentative_clutter", a.tentative_clutter}};
+            {"tentative_clutter", a.tentative_clutter},
+            {"doubled_landmarks", a.doubled_landmarks}};
 }
 
 Json json(const TrackingMetrics& t) {

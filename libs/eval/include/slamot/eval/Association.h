@@ -30,6 +30,8 @@ struct AssociationMetrics {
     AssociationScores landmarks, movers;
     /// Clutter that is tentative: not taken for a thing.
     std::int64_t tentative_clutter = 0;
+    /// Landmarks in the map at the end that stand for what another one in it stands for: all but one of each.
+    std::int64_t doubled_landmarks = 0;
     /// Detections used, tentative ones included; and those left out: at stamps where the log had fewer
     /// detections than truth has, so that their numbers do not fit, or where truth says nothing of their
     /// source.
