@@ -105,7 +105,8 @@ TEST(LandmarkFiltersTest, NamelessLandmarksWeighByExistence) {
     EXPECT_NEAR(particle.all().at(0).existence.probability(), r, 1e-12);
 
     const double N = 1 / (2 * pi * std::sqrt(0.02 * 0.0008));
-    EXPECT_NEAR(particle.take(scanAt(1, {nameless({5, 0})})), std::log(c * (1 - r) + r * p_d * N), 1e-9);
+    EXPECT_NEAR(particle.take(scanAt(1, {nameless({5, 0})})), std::log(c * (1 - r * p_d) + r * p_d * N),
+                1e-9);
     r = r * p_d * N / (r * p_d * N + (1 - r) * c);
     EXPECT_NEAR(particle.all().at(0).existence.probability(), r, 1e-9);
 
@@ -183,6 +184,34 @@ TEST(LandmarkFiltersTest, TentativeLandmarksDoNotRefineThePose) {
         particle.map.update(particle.settings, Vector3::Zero(), true, scan, particle.work, particle.records);
         EXPECT_EQ(confirmed, k > 1);
     }
+}
+
+// Each sensor detects a landmark once at most: what one starts the other confirms, and what one misses
+// counts.
+TEST(LandmarkFiltersTest, SensorsHaveTheirTurns) {
+    const auto scanOfTwo = [](double t, std::vector<RangeBearingDetection> detections) {
+        DetectionSet set = scanAt(t, std::move(detections));
+        auto& both = std::get<RangeBearingSet>(set.measurements);
+        both.sensors.push_back(both.sensors.front());
+        both.sensors.back().label = "other";
+        both.detections.back().sensor = 1;
+        return set;
+    };
+    Particle seen_by_both, seen_by_one;
+    for (Particle* each : {&seen_by_both, &seen_by_one})
+        each->take(scanOfTwo(0, {nameless({5, 0}), nameless({5, 0})}));
+    ASSERT_EQ(seen_by_both.all().size(), 1u);
+    EXPECT_EQ(seen_by_both.all()[0].seen, 2);
+    // Two readings of one place, each with the sensor's noise.
+    EXPECT_NEAR(seen_by_both.all()[0].point.covariance(0, 0), 0.01 / 2, 1e-9);
+
+    seen_by_both.take(scanOfTwo(1, {nameless({5, 0}), nameless({5, 0})}));
+    seen_by_one.take(scanOfTwo(1, {nameless({-5, 3}), nameless({5, 0})}));
+    ASSERT_EQ(seen_by_both.all().size(), 1u);
+    EXPECT_EQ(seen_by_both.all()[0].seen, 4);
+    ASSERT_EQ(seen_by_one.all().size(), 2u);
+    EXPECT_EQ(seen_by_one.all()[0].seen, 3);
+    EXPECT_LT(seen_by_one.all()[0].existence.probability(), seen_by_both.all()[0].existence.probability());
 }
 
 TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {

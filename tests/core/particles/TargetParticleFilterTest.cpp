@@ -125,32 +125,41 @@ TEST(TargetParticleFilterTest, OutliersAreTreatedAlikeInAllParticles) {
 // --- without identity
 // ---------------------------------------------------------------------------------------------------
 
+/// What there is at the end of some runs, what of it was found, and what else was.
 struct Found {
-    int landmarks = 0, matched_landmarks = 0, tracks = 0, matched_tracks = 0;
+    int there = 0, found = 0, false_ones = 0;
+
+    /// Within 1 m; each truth is found once at most.
+    template <class Estimate>
+    void count(const std::vector<Estimate>& estimates, std::vector<Vector2> truths) {
+        there += static_cast<int>(truths.size());
+        for (const Estimate& each : estimates) {
+            const auto near = std::find_if(truths.begin(), truths.end(), [&](const Vector2& truth) {
+                return (each.mean.template head<2>() - truth).norm() < 1;
+            });
+            ++(near == truths.end() ? false_ones : found);
+            if (near != truths.end()) truths.erase(near);
+        }
+    }
+};
+
+struct FoundInAll {
+    Found landmarks, movers;
     double squared_error = 0;
 };
 
-Found runOf(const TargetParticleParameters& p, const HiddenWorld& world, std::uint64_t seed,
-            bool labelled = false) {
+void addRun(const TargetParticleParameters& p, const HiddenWorld& world, std::uint64_t seed, bool labelled,
+            FoundInAll& out) {
     TargetParticleFilter filter(p, HiddenWorld::motion(), 1);
     filter.start(world.start(), seed);
-    Found out;
     for (const HiddenWorld::Step& now : world.steps) {
         filter.predict(now.odometry);
         filter.update(labelled ? now.labelled : now.hidden);
         out.squared_error +=
             (filter.robot().mean.position() - now.robot.position()).squaredNorm() / world.steps.size();
     }
-    for (const LandmarkEstimate& each : existing(filter.landmarks())) {
-        ++out.landmarks;
-        for (const Vector2& truth : world.landmarks) out.matched_landmarks += (each.mean - truth).norm() < 1;
-    }
-    for (const TrackEstimate& each : existing(filter.tracks())) {
-        ++out.tracks;
-        for (const Vector2& truth : world.steps.back().movers)
-            out.matched_tracks += (each.mean.head<2>() - truth).norm() < 1;
-    }
-    return out;
+    out.landmarks.count(existing(filter.landmarks()), world.landmarks);
+    out.movers.count(existing(filter.tracks()), world.steps.back().movers);
 }
 
 class HiddenRuns : public testing::TestWithParam<std::tuple<bool, std::string>> {};
@@ -164,24 +173,22 @@ TEST_P(HiddenRuns, FindWhatIsThere) {
     if (form == "modes") p.imm.modes = test::immModes("cv:cv:0.1, ca:ca:1").modes;
     if (form == "unweighed") p.weigh_targets = false;
     constexpr int seeds = 6;
-    Found all;
-    double labelled = 0;
+    FoundInAll all, labelled;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         test::HiddenWorldOptions options;
         options.seed = seed;
         options.kinds_known = kinds_known;
         const HiddenWorld world(options);
-        const Found run = runOf(p, world, seed);
-        all.landmarks += run.landmarks;
-        all.matched_landmarks += run.matched_landmarks;
-        all.tracks += run.tracks;
-        all.matched_tracks += run.matched_tracks;
-        all.squared_error += run.squared_error;
-        labelled += runOf(named, world, seed, true).squared_error;
+        addRun(p, world, seed, false, all);
+        addRun(named, world, seed, true, labelled);
     }
-    std::cout << form << kinds_known << " landmarks " << all.landmarks << "/" << all.matched_landmarks
-              << " tracks " << all.tracks << "/" << all.matched_tracks << " error ratio "
-              << std::sqrt(all.squared_error / labelled) << " " << std::sqrt(labelled / seeds) << std::endl;
+    // Six worlds of 25 landmarks and two movers. Measured over all forms: nothing missed, one false landmark
+    // in 48 worlds, errors up to 1.42 times those with identities.
+    EXPECT_GE(all.landmarks.found, all.landmarks.there - 1);
+    EXPECT_LE(all.landmarks.false_ones, 2);
+    EXPECT_GE(all.movers.found, all.movers.there - 1);
+    EXPECT_LE(all.movers.false_ones, 1);
+    EXPECT_LT(std::sqrt(all.squared_error / labelled.squared_error), 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HiddenRuns,
@@ -278,7 +285,6 @@ TEST(TargetParticleFilterTest, WhatStopsBecomesALandmarkAndWhatStartsATrack) {
             stood += run.stood;
             moved_on += run.moved_on;
         }
-        std::cout << moved << " " << stood << " " << moved_on << std::endl;
         EXPECT_GE(moved, 0.9 * seeds);
         EXPECT_GE(stood, 0.9 * seeds);
         EXPECT_GE(moved_on, 0.9 * seeds);

@@ -44,7 +44,7 @@ DetectionSet scanAt(double t, std::vector<RangeBearingDetection> detections) {
 }
 
 TargetDetection detectionOf(BlockId target, const RangeBearingDetection& detection) {
-    return {target, {detection.z(), detection.covariance, {}}};
+    return {target, -1, {detection.z(), detection.covariance, {}}};
 }
 
 // A mover as seen from an uncertain robot: P_TT = G P_RR G^t + own, P_RT = P_RR G^t (paper 1, eq. 13 to 17).

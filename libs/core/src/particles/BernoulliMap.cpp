@@ -16,11 +16,15 @@ constexpr double least_pair = 1e-8;
 
 constexpr double least_clutter = 1e-6;
 
+/// What is seen beside the field of view is in it after all: a detection there may be of a feature.
+constexpr double least_in_view = 0.02;
+
 /// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the
 /// feature missed.
 double logRatio(const BernoulliMap::Work::Near& near, const Candidate& pair, double unexplained) {
-    const double seen = near.detection * near.existence.visibility();
-    return std::log(seen / (unexplained * (1 - seen))) + pair.log_likelihood;
+    const double visible = near.existence.visibility();
+    return std::log(near.detection * visible / (unexplained * (1 - near.miss() * visible))) +
+           pair.log_likelihood;
 }
 
 }  // namespace
@@ -41,19 +45,15 @@ void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, co
     const ScanView& view = scan.views[static_cast<std::size_t>(number)];
     work.near.clear();
     work.view = number;
-    const auto toldByName = [&](const BernoulliFeature& feature) {
-        return std::any_of(scan.sights.begin(), scan.sights.end(),
-                           [&](const ScanSight& sight) { return sight.known_as == feature.id; });
-    };
     const StandingSensor sensor(pose, view);
     features_.forEachNear(
         sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
-            if (!sensor.mayShow(feature.point)) return;
-            if (feature.source.valid() && toldByName(feature)) return;
+            // What has a name is known by it alone, and says nothing when it is not named.
+            if (feature.source.valid() || !sensor.mayShow(feature.point)) return;
             work.near.push_back(
                 {place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
             Work::Near& near = work.near.back();
-            near.detection = life.detection_probability * sensor.inView(near.sight);
+            near.detection = life.detection_probability * std::max(sensor.inView(near.sight), least_in_view);
             near.existence.pass(secondsBetween(feature.looked, scan.now), life);
         });
 }
@@ -167,7 +167,7 @@ void BernoulliMap::refine(const Settings& settings, const ParticleScan& scan, co
 // --- what the scan says of the map
 // ---------------------------------------------------------------------------------------------------
 
-double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool /*drawn*/,
+double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool drawn,
                             const ParticleScan& scan, Work& work, std::vector<SightRecord>& records) {
     double log_likelihood = 0;
     std::vector<double> none(scan.sights.size());
@@ -175,7 +175,7 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
     for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
         log_likelihood += updateNamed(settings, pose, scan, view, records);
         if (scan.views[static_cast<std::size_t>(view)].nameless)
-            log_likelihood += updateNameless(settings, pose, scan, view, work, records, none);
+            log_likelihood += updateNameless(settings, pose, drawn, scan, view, work, records, none);
         for (std::size_t s = 0; s < scan.sights.size(); ++s) {
             const ScanSight& sight = scan.sights[s];
             if (sight.view != view) continue;
@@ -216,12 +216,12 @@ double BernoulliMap::updateNamed(const Settings& settings, const Vector3& pose, 
     return log_likelihood;
 }
 
-double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
-                                    int view, Work& work, std::vector<SightRecord>& records,
-                                    std::vector<double>& none) {
-    // The only view was looked through for the pairs. Another may see what the one before has started.
+double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pose, bool drawn,
+                                    const ParticleScan& scan, int view, Work& work,
+                                    std::vector<SightRecord>& records, std::vector<double>& none) {
+    // Pairs were found at another pose; and another sensor may see what the one before has started.
     const PoseBelief at{pose, Matrix3::Zero()};
-    if (scan.views.size() > 1) {
+    if (drawn || scan.views.size() > 1) {
         findNear(settings, at, scan, view, work);
         expectUnexplained(settings, at, scan, work);
         findCandidates(settings, scan, work);
@@ -234,7 +234,7 @@ double BernoulliMap::updateNameless(const Settings& settings, const Vector3& pos
 
     double log_likelihood = marginals.log_sum;
     for (const Work::Near& near : work.near)
-        log_likelihood += std::log1p(-near.detection * near.existence.visibility());
+        log_likelihood += std::log1p(-near.miss() * near.existence.visibility());
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.view != view || sight.named()) continue;
@@ -275,10 +275,10 @@ void BernoulliMap::take(Stamp now, double missed, std::size_t n, const Work& wor
     const Work::Near& near = work.near[n];
     BernoulliFeature& feature = features_.write(near.place);
     feature.existence = near.existence;
-    feature.existence.detectedPerhaps(1 - missed, near.detection);
+    feature.existence.detectedPerhaps(1 - missed, near.miss());
     feature.looked = now;
     if (missed < 1 - 100 * least_pair) {
-        const double seen = near.detection * near.existence.visibility();
+        const double seen = near.miss() * near.existence.visibility();
         const double there = missed * (near.existence.probability() - seen) / (1 - seen);
         FeatureMixture mixture = work.mixtures[n];
         if (there > 100 * least_pair) mixture.add(there, near.point);

@@ -65,6 +65,11 @@ double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, cons
     const Work::Near& a = work.near[static_cast<std::size_t>(older)];
     const Work::Near& b = work.near[static_cast<std::size_t>(younger)];
     const SensorPlace sensor = placeOf(pose, scan.views[static_cast<std::size_t>(work.view)].sensor.pose);
+    // What is there may be hidden.
+    const auto detectionOf = [](const Work::Near& near) {
+        return near.detection * near.existence.visibility() / near.existence.probability();
+    };
+    const double detected_a = detectionOf(a), detected_b = detectionOf(b);
     std::optional<PointSight> both;
     double theirs = 0;
     bool shared = false;
@@ -83,21 +88,20 @@ double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, cons
             }
             theirs += marginals.pair[c];
             fits += pair.nis <= settings.rival_gate;
-            const Work::Near& near = pair.object == older ? a : b;
             (pair.object == older ? weights.first : weights.second) =
-                near.detection * std::exp(pair.log_likelihood);
+                (pair.object == older ? detected_a : detected_b) * std::exp(pair.log_likelihood);
         }
         if (weights.first + weights.second == 0) continue;
         shared = shared || fits == 2;
         if (!both) both = sightOf(fused(a.point, b.point), sensor, GaussianTransform::linear);
-        weights.one = std::max(a.detection, b.detection) *
+        weights.one = std::max(detected_a, detected_b) *
                       std::exp(PointInnovation(*both, sight.z, sight.R).logLikelihood());
         const double none = std::max(marginals.none[static_cast<std::size_t>(s)], 1e-12);
         const double else_ = work.unexplained[static_cast<std::size_t>(s)] * (1 + of_others / none);
         work.rival_sights.push_back({weights.first / else_, weights.second / else_, weights.one / else_});
     }
     if (!shared || theirs < least_seen) return 0;
-    return logOneAgainstTwo(a.detection, b.detection, work.rival_sights);
+    return logOneAgainstTwo(detected_a, detected_b, work.rival_sights);
 }
 
 void BernoulliMap::merge(Place older, Place younger) {

@@ -95,7 +95,7 @@ void LandmarkFilters::pairNamed(const ParticleScan& scan, Work& work) const {
             n = static_cast<int>(work.near.size());
             work.near.push_back({place, landmarks_.at(place).point, false, true});
         }
-        work.near[static_cast<std::size_t>(n)].paired = true;
+        work.near[static_cast<std::size_t>(n)].named_now = true;
         work.near_of[s] = n;
     }
 }
@@ -109,22 +109,27 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
     const double log_detection = std::log(p.life.detection_probability);
     work.candidates.clear();
     work.wide.clear();
-    auto rival = work.rivals.begin();
-    int objects = static_cast<int>(work.near.size());
+    work.paired.assign(scan.views.size() * work.near.size(), false);
+    // A landmark or mover is detected once at most by a sensor: to each view it is an object of its own.
+    const int near_count = static_cast<int>(work.near.size());
+    int per_view = near_count;
+    for (const Candidate& pair : work.of_movers) per_view = std::max(per_view, near_count + pair.object + 1);
+    auto of_mover = work.of_movers.begin();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.named()) continue;
         const Vector2 at = pose.mean.head<2>() + turn * sight.local;
         const double variance =
             pose_variance + sight.R(0, 0) + sight.z.x() * sight.z.x() * (sight.R(1, 1) + turn_variance);
-        for (std::size_t n = 0; n < work.near.size(); ++n) {
-            const Work::Near& near = work.near[n];
+        const int first = sight.view * per_view;
+        for (int n = 0; n < near_count; ++n) {
+            const Work::Near& near = work.near[static_cast<std::size_t>(n)];
             const double reach = bend * settings.separation_gate * (variance + near.point.covariance.trace());
-            if (near.paired || (near.point.mean - at).squaredNorm() > reach) continue;
+            if (near.named_now || (near.point.mean - at).squaredNorm() > reach) continue;
             const PointInnovation innovation(expectedAt(settings, pose, scan, work, sight, near.point),
                                              sight.z, sight.R);
             if (innovation.nis > settings.separation_gate) continue;
-            Candidate pair{static_cast<int>(s), static_cast<int>(n), innovation.nis, -0.5 * innovation.nis};
+            Candidate pair{static_cast<int>(s), first + n, innovation.nis, -0.5 * innovation.nis};
             work.wide.push_back(pair);
             if (innovation.nis > settings.gate) continue;
             if (p.association == ParticleAssociation::likelihood) {
@@ -138,24 +143,26 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             }
             work.candidates.push_back(pair);
         }
-        for (; rival != work.rivals.end() && rival->detection == static_cast<int>(s); ++rival) {
-            work.candidates.push_back(*rival);
-            work.candidates.back().object += static_cast<int>(work.near.size());
-            objects = std::max(objects, work.candidates.back().object + 1);
+        for (; of_mover != work.of_movers.end() && of_mover->detection == static_cast<int>(s); ++of_mover) {
+            work.candidates.push_back(*of_mover);
+            work.candidates.back().object += first + near_count;
         }
     }
-    const AssociationProblem problem(static_cast<int>(scan.sights.size()), objects, work.candidates);
+    const int views = static_cast<int>(scan.views.size());
+    const AssociationProblem problem(static_cast<int>(scan.sights.size()), views * per_view, work.candidates);
     const Pairing pairing = nearestNeighbour(problem);
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const int c = pairing.of(static_cast<int>(s));
         if (!scan.sights[s].named()) work.may_start[s] = c < 0;
-        if (c < 0 || problem.candidate(c).object >= static_cast<int>(work.near.size())) continue;
-        work.near_of[s] = problem.candidate(c).object;
-        work.near[static_cast<std::size_t>(work.near_of[s])].paired = true;
+        if (c < 0) continue;
+        const int n = problem.candidate(c).object % per_view;
+        if (n >= near_count) continue;
+        work.near_of[s] = n;
+        work.paired[work.pairOf(scan.sights[s].view, n)] = true;
     }
     // What lies near a landmark that is not seen otherwise may be of it: it starts nothing.
     for (const Candidate& pair : work.wide)
-        if (!work.near[static_cast<std::size_t>(pair.object)].paired)
+        if (!work.paired[work.pairOf(pair.object / per_view, pair.object % per_view)])
             work.may_start[static_cast<std::size_t>(pair.detection)] = false;
 }
 
@@ -195,9 +202,15 @@ double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bo
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (!work.may_start[s]) continue;
+        records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
+        Place place;
+        if (!sight.named() && startedByAnotherSensor(settings, scan, work, s, place)) {
+            records[s].landmark = landmarks_.at(place).id;
+            log_likelihood += detected(settings, work.expected[s], sight, scan.now, place);
+            continue;
+        }
         start(settings, work.placeOf(sight), sight, scan.now);
         records[s].landmark = sight.birth;
-        records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
     }
     if (scan.nameless) letGo(settings, scan.now, work);
     return log_likelihood;
@@ -214,14 +227,26 @@ double LandmarkFilters::detected(const Settings& settings, const PointSight& exp
     landmark.last_seen = now;
     if (sight.named()) return innovation.logLikelihood();
 
-    // The landmark is visible and detected, or the detection is of something else.
+    // The landmark is detected, or it is not and the detection is of something else.
     landmark.existence.pass(secondsBetween(landmark.looked, now), life);
     landmark.looked = now;
     const double ratio =
         life.detection_probability * std::exp(innovation.logLikelihood() - sight.log_unexplained);
     const double visible = landmark.existence.visibility();
     landmark.existence.detected(ratio);
-    return std::log(visible * ratio + 1 - visible);
+    return std::log(visible * ratio + 1 - visible * life.detection_probability);
+}
+
+bool LandmarkFilters::startedByAnotherSensor(const Settings& settings, const ParticleScan& scan, Work& work,
+                                             std::size_t s, Place& place) const {
+    const ScanSight& sight = scan.sights[s];
+    for (const ScanSight& other : scan.sights) {
+        if (other.view == sight.view) return false;  // sights are view after view
+        if (other.named() || !landmarks_.locate(other.birth, place)) continue;
+        work.expected[s] = sightOf(landmarks_.at(place).point, work.placeOf(sight), settings.transform);
+        if (PointInnovation(work.expected[s], sight.z, sight.R).nis <= settings.gate) return true;
+    }
+    return false;
 }
 
 double LandmarkFilters::missed(const Settings& settings, const ParticleScan& scan, Work& work) {
@@ -233,8 +258,11 @@ double LandmarkFilters::missed(const Settings& settings, const ParticleScan& sca
         if (!view.nameless) continue;
         const SensorPlace& sensor = work.places[v];
         const Vector2 facing(std::cos(sensor.heading), std::sin(sensor.heading));
-        for (const Work::Near& near : work.near) {
-            if (near.paired || near.named || !mayBeInView(sensor, view.sensor, facing, near.point)) continue;
+        for (std::size_t n = 0; n < work.near.size(); ++n) {
+            const Work::Near& near = work.near[n];
+            if (near.named || work.paired[work.pairOf(static_cast<int>(v), static_cast<int>(n))] ||
+                !mayBeInView(sensor, view.sensor, facing, near.point))
+                continue;
             const PointSight expected = sightOf(near.point, sensor, GaussianTransform::linear);
             const double seen = life.detection_probability *
                                 probabilityInView(view.sensor, {expected.z, expected.covariance});

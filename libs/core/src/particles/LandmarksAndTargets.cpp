@@ -17,9 +17,9 @@ void LandmarksAndTargets::pairUp(const Settings& settings, const PoseBelief& pos
     landmarks_.pairUp(settings.landmarks, pose, scan, work, records);
 }
 
-void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
-                                     Work& work) const {
-    work.rivals.clear();
+void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief& pose,
+                                     const ParticleScan& scan, Work& work) const {
+    work.of_movers.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (!sight.may_be_mover) continue;
@@ -31,27 +31,30 @@ void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief&
             // Scores as the landmarks' method has them.
             Candidate pair{static_cast<int>(s), static_cast<int>(t), innovation.nis, -0.5 * innovation.nis};
             if (settings.landmarks.parameters.association == ParticleAssociation::likelihood)
-                pair.log_likelihood = innovation.logLikelihood() + std::log(settings.target_detection_probability);
-            work.rivals.push_back(pair);
+                pair.log_likelihood =
+                    innovation.logLikelihood() + std::log(settings.target_detection_probability);
+            work.of_movers.push_back(pair);
         }
     }
 }
 
 void LandmarksAndTargets::remember(const Vector3& pose, const ParticleScan& scan) {
-    if (std::none_of(scan.sights.begin(), scan.sights.end(), [](const ScanSight& s) { return s.may_be_mover; }))
+    if (!scan.fixes_poses && std::none_of(scan.sights.begin(), scan.sights.end(),
+                                          [](const ScanSight& s) { return s.may_be_mover; }))
         return;
     if (path_.size() == most_poses) path_.erase(path_.begin());
     path_.push_back({scan.now, pose});
 }
 
-GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings, const std::vector<TentativeSight>& sights,
-                                           double gate, double& log_likelihood) const {
+GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings,
+                                           const std::vector<TentativeSight>& sights, double gate,
+                                           double& log_likelihood) const {
     const GaussianTransform transform = settings.landmarks.transform;
     GaussianPoint point;
     bool is_first = true;
     for (const TentativeSight& sight : sights) {
-        const auto from =
-            std::find_if(path_.begin(), path_.end(), [&](const PastPose& past) { return past.at == sight.at; });
+        const auto from = std::find_if(path_.begin(), path_.end(),
+                                       [&](const PastPose& past) { return past.at == sight.at; });
         if (from == path_.end()) continue;
         const SensorPlace place = placeOf(from->pose, sight.sensor);
         if (is_first) {

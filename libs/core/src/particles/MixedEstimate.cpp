@@ -25,7 +25,6 @@ void fillReport(const ParticleScan& scan, const ParticleWeights& before, int bes
         Innovation& innovation = report.innovations[static_cast<std::size_t>(sight.detection)];
         innovation.outcome = record.outcome;
         innovation.landmark = record.landmark;
-        innovation.track = record.track;
         if (record.outcome != Outcome::updated) continue;
 
         // Residuals are small beside a turn: their moments are those of expected detections.
@@ -34,7 +33,7 @@ void fillReport(const ParticleScan& scan, const ParticleWeights& before, int bes
         Matrix2 second = Matrix2::Zero();
         for (std::size_t i = 0; i < records.size(); ++i) {
             const SightRecord& same = records[i][s];
-            if (same.outcome != record.outcome || same.landmark != record.landmark || same.track != record.track)
+            if (same.outcome != record.outcome || same.landmark != record.landmark)
                 continue;
             const double w = before[static_cast<int>(i)];
             const Vector2 nu = rangeBearingResidual(sight.z, same.z);

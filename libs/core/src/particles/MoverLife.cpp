@@ -120,6 +120,7 @@ void MoverLife::judge(const TargetParticles& particles, ObjectCatalogue& tracks,
 void MoverLife::lost(const TargetParticles& particles, const TrackRecord& track, Stamp now) {
     const TargetBelief last = particles.target(track.block);
     lost_.add({track.id, last.mean, last.covariance, now});
+    kinds_.forget(track.block);
 }
 
 void MoverLife::removeTrack(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track) {

@@ -55,8 +55,7 @@ Matrix3 factorOf(const Matrix3& P) {
 
 SigmaWeights::SigmaWeights(int n)
     : reach(sigma_alpha * std::sqrt(static_cast<double>(n))),
-      centre_mean(1 - 1 / (sigma_alpha * sigma_alpha)),
-      centre_cov(centre_mean + 1 - sigma_alpha * sigma_alpha + sigma_beta),
+      centre_cov(2 - 1 / (sigma_alpha * sigma_alpha) - sigma_alpha * sigma_alpha + sigma_beta),
       other(0.5 / (reach * reach)) {}
 
 PoseBelief predicted(const PoseBelief& belief, const RobotMotionParameters& motion, const MotionControl& control,

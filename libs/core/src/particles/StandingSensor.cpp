@@ -12,7 +12,6 @@ namespace {
 constexpr double range_rim = 0.3, bearing_rim = 0.04;  // [m], [rad]
 /// Where limits are looked at, in standard deviations: what lies farther beyond is not seen.
 constexpr double widest = 4;
-constexpr double least_in_view = 0.02;
 
 }  // namespace
 
@@ -79,7 +78,7 @@ double StandingSensor::inView(const PointSight& sight) const {
         sight.z.x() + range <= sensor.max_range && (sensor.min_range <= 0 || sight.z.x() - range >= sensor.min_range) &&
         (sensor.field_of_view >= 2 * pi || std::abs(sight.z.y()) + bearing <= 0.5 * sensor.field_of_view);
     if (well_inside) return 1;
-    return std::max(probabilityInView(sensor, {sight.z, spread}), least_in_view);
+    return probabilityInView(sensor, {sight.z, spread});
 }
 
 }  // namespace slamot

@@ -11,8 +11,8 @@ bool isNamed(const RangeBearingDetection& detection) {
 
 }  // namespace
 
-TargetParticleFilter::TargetParticleFilter(const TargetParticleParameters& p, const RobotMotionParameters& motion,
-                                           int threads)
+TargetParticleFilter::TargetParticleFilter(const TargetParticleParameters& p,
+                                           const RobotMotionParameters& motion, int threads)
     : parameters_(p),
       motion_(motion),
       consistency_(consistencyOf(p)),
@@ -64,7 +64,8 @@ UpdateReport TargetParticleFilter::update(const DetectionSet& set) {
     if (movers) updateByMovers(batch, report.innovations);
     particles_.resample();
     startNamed(batch, report.innovations);
-    if (nameless || tracks_.living() || life_.busy()) life_.follow(particles_, tracks_, batch, report.innovations);
+    if (nameless || tracks_.living() || life_.busy())
+        life_.follow(particles_, tracks_, batch, report.innovations);
     return report;
 }
 
@@ -99,12 +100,13 @@ void TargetParticleFilter::updateByMovers(MoverBatch& batch, std::vector<Innovat
         const Matrix2 more_noise = gate.judge(Eigen::VectorXd::Ones(1), {expected}, seen, innovation);
         if (innovation.outcome == Outcome::rejected) continue;
         tracks_.markSeen(track.id, batch.now);
-        TargetDetection detection{block, {seen.z(), seen.covariance + more_noise, sensor.pose}};
+        TargetDetection detection{block, d, {seen.z(), seen.covariance + more_noise, sensor.pose}};
         if (track.life) {
-            detection.visible = track.life->existence.visibility();
+            detection.visible = lifeNow(track, batch.now)->existence.visibility();
             detection.detection_probability = parameters_.life.movers.detection_probability;
             detection.unexplained = unexplainedDensity(
-                seen.kind == ObjectKind::mover ? parameters_.life.movers : parameters_.landmarks.life, sensor);
+                seen.kind == ObjectKind::mover ? parameters_.life.movers : parameters_.landmarks.life,
+                sensor);
         }
         detections.push_back(detection);
     }
@@ -123,6 +125,12 @@ void TargetParticleFilter::pairNamed(MoverBatch& batch, std::vector<Innovation>&
     }
 }
 
+std::optional<ObjectLifeRecord> TargetParticleFilter::lifeNow(const TrackRecord& track, Stamp now) const {
+    std::optional<ObjectLifeRecord> life = track.life;
+    if (life) life->existence.pass(secondsBetween(life->looked, now), parameters_.life.movers);
+    return life;
+}
+
 BatchAssociation TargetParticleFilter::pairNameless(const MergedTargets& view, MoverBatch& batch) {
     std::vector<int> nameless;
     for (std::size_t d = 0; d < batch.seen.detections.size(); ++d)
@@ -134,7 +142,7 @@ BatchAssociation TargetParticleFilter::pairNameless(const MergedTargets& view, M
     for (const TrackRecord& track : tracks_.tracks())
         if (batch.sights.count(track.block) == 0)  // what an identity names is seen already
             visible.push_back({track.block, ObjectKind::mover, parameters_.life.movers.detection_probability,
-                               visiblePart(track.life)});
+                               visiblePart(lifeNow(track, batch.now))});
 
     const std::vector<double> density =
         unexplainedDensities(parameters_.landmarks.life, parameters_.life.movers, batch.seen);
@@ -192,13 +200,15 @@ std::vector<TrackEstimate> TargetParticleFilter::tracks() const {
             estimate.moving = track.life->moving;
         }
         if (has_modes)
-            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(), belief.mode_probabilities.end());
+            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
+                                               belief.mode_probabilities.end());
         out.push_back(std::move(estimate));
     }
     return out;
 }
 
-std::vector<LandmarkEstimate> TargetParticleFilter::withMotion(std::vector<LandmarkEstimate> landmarks) const {
+std::vector<LandmarkEstimate> TargetParticleFilter::withMotion(
+    std::vector<LandmarkEstimate> landmarks) const {
     for (LandmarkEstimate& landmark : landmarks) landmark.moving = life_.movingProbability(landmark.id);
     return landmarks;
 }

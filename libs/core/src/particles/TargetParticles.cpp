@@ -89,7 +89,9 @@ TargetBelief TargetParticles::target(BlockId target) const {
 TargetParticles::TargetParticles(const ParticleParameters& parameters, const RobotMotionParameters& motion,
                                  const LandmarksAndTargets::Settings& settings, const ScanMaker& scans,
                                  bool weigh_targets, int threads)
-    : settings_(settings), weigh_targets_(weigh_targets), particles_(parameters, motion, settings, scans, threads) {}
+    : settings_(settings),
+      weigh_targets_(weigh_targets),
+      particles_(parameters, motion, settings, scans, threads) {}
 
 void TargetParticles::start(const PoseGaussian& pose, std::uint64_t seed) {
     particles_.start(pose, seed);
@@ -122,7 +124,8 @@ std::vector<LandmarkVerdict> TargetParticles::landmarkVerdicts() const {
         std::map<LandmarkId, double> votes;
         for (int i = 0; i < cloud.count(); ++i) {
             const SightRecord& record = particles_.records(i)[s];
-            const double w = cloud.weights()[i];
+            // A mover's part is not in their weights yet: those before the scan are fair to both.
+            const double w = particles_.weightsBefore()[i];
             if (record.may_be_new) new_weight += w;
             if (!record.landmark.valid()) continue;
             explained += w;
@@ -136,6 +139,12 @@ std::vector<LandmarkVerdict> TargetParticles::landmarkVerdicts() const {
     return out;
 }
 
+bool TargetParticles::landmarkTook(int particle, int detection) const {
+    for (std::size_t s = 0; s < scan_.sights.size(); ++s)
+        if (scan_.sights[s].detection == detection) return particles_.records(particle)[s].landmark.valid();
+    return false;
+}
+
 void TargetParticles::updateByTargets(const std::vector<TargetDetection>& detections) {
     if (detections.empty()) return;
     std::vector<std::size_t> targets;
@@ -144,12 +153,15 @@ void TargetParticles::updateByTargets(const std::vector<TargetDetection>& detect
     particles_.forEachParticle([&](int i, LandmarksAndTargets& map, const PoseBelief& pose) {
         for (std::size_t k = 0; k < detections.size(); ++k) {
             const TargetDetection& d = detections[k];
+            if (landmarkTook(i, d.detection)) continue;  // a detection has one source
             const double log_N = map.targets()[targets[k]].update(settings_.targets, pose.mean, d.sight);
-            // The mover is seen, or it is hidden and this is something else (eq. 11: a mover's own factor alone).
+            // The mover is detected, or it is not and this is something else (eq. 11: a mover's own factor
+            // alone).
             log_likelihoods[static_cast<std::size_t>(i)] +=
-                d.visible < 1 ? std::log(d.visible * d.detection_probability * std::exp(log_N) / d.unexplained + 1 -
-                                         d.visible)
-                              : log_N;
+                d.visible < 1
+                    ? std::log(d.detection_probability * d.visible * (std::exp(log_N) / d.unexplained - 1) +
+                               1)
+                    : log_N;
         }
     });
     if (weigh_targets_) particles_.weigh(log_likelihoods);

@@ -1,9 +1,10 @@
 #pragma once
-// One particle's map as a Poisson multi-Bernoulli density: features that exist with a probability and have a Gaussian
-// position, independent of one another, and a Poisson number of features not detected yet. One step is that of the
-// track-oriented marginal filter TOMB/P (J. L. Williams, IEEE Transactions on Aerospace and Electronic Systems 51(3),
-// 2015, section IV.B): a detection is of each feature, of something new or false with its probability over all
-// pairings, and each feature becomes the mixture of what it would be with each of them. doc/plugins/pmb_ufastslam.md.
+// One particle's map as a Poisson multi-Bernoulli density: features that exist with a probability and have a
+// Gaussian position, independent of one another, and a Poisson number of features not detected yet. One step
+// is that of the track-oriented marginal filter TOMB/P (J. L. Williams, IEEE Transactions on Aerospace and
+// Electronic Systems 51(3), 2015, section IV.B): a detection is of each feature, of something new or false
+// with its probability over all pairings, and each feature becomes the mixture of what it would be with each
+// of them. doc/plugins/pmb_ufastslam.md.
 #include <vector>
 
 #include "slamot/core/association/AssociationProblem.h"
@@ -43,9 +44,9 @@ struct BernoulliFeature {
     Existence existence = Existence::certain();
     std::int64_t seen = 1;
     Stamp first_seen, last_seen;
-    Stamp looked;       ///< when its existence was judged last
-    LandmarkId rival;   ///< an older feature that may be the same one
-    double same = 0;    ///< log odds that it is, as far as scans tell
+    Stamp looked;      ///< when its existence was judged last
+    LandmarkId rival;  ///< an older feature that may be the same one
+    double same = 0;   ///< log odds that it is, as far as scans tell
 
     double existenceProbability() const { return existence.probability(); }
 };
@@ -69,9 +70,13 @@ class BernoulliMap {
             Place place;
             GaussianPoint point;
             Existence existence;
-            double detection;  ///< probability that it is detected, if it is visible
+            double detection;  ///< probability that it is detected, if it is visible, where something is
             PointSight sight;
             bool at_pose;  ///< whether `sight` is from the drawn pose
+
+            /// The same where nothing is detected: beside the field of view a miss says nothing.
+            double miss() const { return detection > least_missed ? detection : 0; }
+            static constexpr double least_missed = 0.02;
         };
         /// A detection that is of a feature with that probability, at the predicted pose.
         struct Pair {
@@ -100,12 +105,13 @@ class BernoulliMap {
     void pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work,
                 std::vector<SightRecord>& records) const;
     /// The pose with what the pairs beyond doubt say of it, sight after sight.
-    void refine(const Settings& settings, const ParticleScan& scan, const Work& work, RefinedPose& pose) const;
-    /// Takes the scan in at a known pose. Returns the log of its likelihood given the map before: of the sum over all
-    /// pairings, exact in clusters within the state budget, Bethe's approximation in others; up to a term that all
-    /// poses share.
-    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan, Work& work,
-                  std::vector<SightRecord>& records);
+    void refine(const Settings& settings, const ParticleScan& scan, const Work& work,
+                RefinedPose& pose) const;
+    /// Takes the scan in at a known pose. Returns the log of its likelihood given the map before: of the sum
+    /// over all pairings, exact in clusters within the state budget, Bethe's approximation in others; up to a
+    /// term that all poses share.
+    double update(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
+                  Work& work, std::vector<SightRecord>& records);
 
     const BernoulliFeature* find(LandmarkId id) const { return features_.find(id); }
     static bool isConfirmed(const Settings& settings, const BernoulliFeature& feature) {
@@ -125,11 +131,12 @@ class BernoulliMap {
     void expectUnexplained(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                            Work& work) const;
     static void findCandidates(const Settings& settings, const ParticleScan& scan, Work& work);
-    static void lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan, Work& work);
+    static void lookAgain(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+                          Work& work);
     double updateNamed(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view,
                        std::vector<SightRecord>& records);
-    double updateNameless(const Settings& settings, const Vector3& pose, const ParticleScan& scan, int view, Work& work,
-                          std::vector<SightRecord>& records, std::vector<double>& none);
+    double updateNameless(const Settings& settings, const Vector3& pose, bool drawn, const ParticleScan& scan,
+                          int view, Work& work, std::vector<SightRecord>& records, std::vector<double>& none);
     void take(Stamp now, double missed, std::size_t near, const Work& work);
     void findRivals(const Settings& settings, const AssociationProblem& problem, const Work& work);
     void weighRivals(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
@@ -137,8 +144,8 @@ class BernoulliMap {
     double logSame(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
                    const AssociationMarginals& marginals, int older, int younger, Work& work) const;
     void merge(Place older, Place younger);
-    void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan, const ScanSight& sight,
-               double existence);
+    void start(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
+               const ScanSight& sight, double existence);
     void letGo(const Settings& settings, Stamp now, Work& work);
 
     SharedPages<BernoulliFeature> features_;

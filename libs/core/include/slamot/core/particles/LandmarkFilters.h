@@ -59,19 +59,21 @@ class LandmarkFilters {
         struct Near {
             Place place;
             GaussianPoint point;
-            bool paired, named;
+            bool named_now, named;  ///< by a detection of this batch; ever
         };
         std::vector<SensorPlace> places;   ///< of the sensors, by view
         std::vector<Near> near;            ///< what may be in view
         std::vector<int> near_of;          ///< by sight: what it is of, -1 none
         std::vector<PointSight> expected;  ///< by sight, at the predicted pose
         std::vector<bool> may_start;       ///< by sight
+        std::vector<bool> paired;          ///< by view and near: a nameless sight of that view is of it
         /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of
         /// sights, with the movers' own numbers. A sight that is likelier one of theirs is left to them.
-        std::vector<Candidate> rivals;
+        std::vector<Candidate> of_movers;
         std::vector<Candidate> candidates, wide;
         std::vector<Place> lost;
 
+        std::size_t pairOf(int view, int n) const { return static_cast<std::size_t>(view) * near.size() + n; }
         const SensorPlace& placeOf(const ScanSight& sight) const {
             return places[static_cast<std::size_t>(sight.view)];
         }
@@ -115,6 +117,9 @@ class LandmarkFilters {
                       Work& work) const;
     double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight, Stamp now,
                     Place place);
+    /// Whether a sight may be of what a sensor before it has just started; its place then.
+    bool startedByAnotherSensor(const Settings& settings, const ParticleScan& scan, Work& work, std::size_t s,
+                                Place& place) const;
     double missed(const Settings& settings, const ParticleScan& scan, Work& work);
     void start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now);
     void letGo(const Settings& settings, Stamp now, Work& work);

@@ -51,7 +51,6 @@ class LandmarksAndTargets {
     const SharedPages<LandmarkFilter>& features() const { return landmarks_.features(); }
 
     LandmarkFilters& landmarks() { return landmarks_; }
-    const LandmarkFilters& landmarks() const { return landmarks_; }
     std::vector<TargetFilter>& targets() { return targets_; }
     const std::vector<TargetFilter>& targets() const { return targets_; }
 

@@ -68,12 +68,14 @@ class ParticleFilter {
             for (int i = first; i < last; ++i) take(i, scan, work);
         });
         // Innovations are told as they were expected: with the weights before the scan.
-        const ParticleWeights before = cloud_.weights();
+        before_ = cloud_.weights();
         cloud_.weigh(log_likelihoods_);
-        fillReport(scan, before, cloud_.weights().best(), records_, report);
+        fillReport(scan, before_, cloud_.weights().best(), records_, report);
         return report;
     }
-    /// What each particle made of the sights of the last scan that was looked at.
+    /// Weights before the last scan that was looked at.
+    const ParticleWeights& weightsBefore() const { return before_; }
+    /// What each particle made of the sights of that scan.
     const std::vector<SightRecord>& records(int i) const { return records_[static_cast<std::size_t>(i)]; }
     /// Calls visit(i, map, pose) for each particle, in parallel.
     template <class Visit>
@@ -169,6 +171,7 @@ class ParticleFilter {
     Settings settings_;
     ScanMaker scans_;
     ParticleCloud cloud_;
+    ParticleWeights before_;
     Workers workers_;
     std::vector<Map> maps_;
     std::vector<std::vector<SightRecord>> records_;

@@ -82,7 +82,6 @@ class ScanMaker {
 struct SightRecord {
     Outcome outcome = Outcome::ignored;
     LandmarkId landmark;
-    TrackId track;
     Vector2 z = Vector2::Zero();        ///< expected, at the predicted pose
     Matrix2 S = Matrix2::Identity();    ///< innovation covariance there
     bool may_be_new = false;            ///< nothing that the particle knows explains it, or could

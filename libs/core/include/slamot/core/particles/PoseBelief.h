@@ -33,7 +33,6 @@ enum class GaussianTransform {
 struct SigmaWeights {
     explicit SigmaWeights(int dimensions);
     double reach;         ///< sqrt(n + lambda) = alpha sqrt(n)
-    double centre_mean;   ///< of the centre, in means
     double centre_cov;    ///< of the centre, in covariances
     double other;         ///< of each other point
 };

@@ -44,6 +44,8 @@ class TargetParticleFilter {
     void updateByMovers(MoverBatch& batch, std::vector<Innovation>& innovations);
     /// By identity; the outcome of those whose identity is new is `initiated`.
     void pairNamed(MoverBatch& batch, std::vector<Innovation>& innovations);
+    /// As far as time alone changes it since the last look.
+    std::optional<ObjectLifeRecord> lifeNow(const TrackRecord& track, Stamp now) const;
     BatchAssociation pairNameless(const MergedTargets& view, MoverBatch& batch);
     void startNamed(const MoverBatch& batch, std::vector<Innovation>& innovations);
 

@@ -34,6 +34,7 @@ class MergedTargets : public JointView {
 /// A detection of a mover that all particles are to take in.
 struct TargetDetection {
     BlockId target;
+    int detection;  ///< index in the batch
     TargetSight sight;
     /// The mover is visible with that probability and detected with density detection_probability N(z), else the
     /// detection came about with this density [1/(m rad)]. Named ones: 1, 1, and no matter.
@@ -80,6 +81,8 @@ class TargetParticles {
 
   private:
     std::size_t indexOf(BlockId target) const;
+    /// Whether a particle took a detection of the batch for a landmark's.
+    bool landmarkTook(int particle, int detection) const;
 
     LandmarksAndTargets::Settings settings_;
     bool weigh_targets_;
