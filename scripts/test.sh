@@ -16,7 +16,12 @@ case "${1:-}" in
     *) echo "test.sh: '$1', expected --nightly or nothing" >&2; exit 2 ;;
 esac
 sanitized=(rawlog run threads plugins)
-if [ $nightly = 1 ]; then sanitized+=(core sim eval report study conformance); fi
+# Laws of statistics say nothing about memory, and with particles take ten minutes each under a sanitizer.
+left_out='NeesInBand|WorldMayBeMoved|NoiseFreeConverges|ScalableFormTest'
+if [ $nightly = 1 ]; then
+    sanitized+=(core sim eval report study conformance)
+    left_out=none
+fi
 
 # sanitized_tests PRESET FOLDER...: builds the tests of these folders with that preset and runs them.
 sanitized_tests() {
@@ -25,7 +30,8 @@ sanitized_tests() {
     labels=$(IFS='|'; echo "$*")
     cmake --preset "$preset" >/dev/null
     cmake --build --preset "$preset" --target "${@/#/test_}"
-    ctest --preset "$preset" -j "$(nproc)" -L "^($labels)\$" -LE 'long|system' --quiet -O "build/$preset/ctest.log" ||
+    ctest --preset "$preset" -j "$(nproc)" -L "^($labels)\$" -LE 'long|system' \
+        -E "$left_out" --quiet -O "build/$preset/ctest.log" ||
         { tail -n 60 "build/$preset/ctest.log"; exit 1; }
     tail -n 4 "build/$preset/ctest.log"
 }
