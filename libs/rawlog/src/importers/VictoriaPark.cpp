@@ -18,18 +18,17 @@
 namespace slamot {
 
 namespace fs = std::filesystem;
-using namespace victoria_park;
 
 namespace {
 
 // The encoder is at the left rear wheel, half_track off the middle of the axle.
 constexpr double wheelbase = 2.83, half_track = 0.76;
-namespace scanner {
+namespace laser {
 // Contain every reading (1.48 to 75.3 m); the laser sees half a turn and its makers say 80 m.
 constexpr double min_range = 1.0, max_range = 80.0, field_of_view = pi;
 // What the log claims for a trunk's centre; see doc/file_formats.md.
 constexpr double std_range = 0.2, std_bearing = 0.014;
-}  // namespace scanner
+}  // namespace laser
 constexpr const char* label = "landmarks";
 constexpr int laser_in_manager = 3;
 
@@ -51,7 +50,7 @@ BodyVelocity bodyVelocity(double wheel_speed, double steering) {
 /// A row's speed and steering are taken for the interval that ends at its time.
 std::vector<OdometryReading> readOdometry(const fs::path& file) {
     std::vector<OdometryReading> readings;
-    forEachRow(file, 3, dataset, [&](const ColumnRow& row) {
+    forEachRow(file, 3, victoria_park::dataset, [&](const ColumnRow& row) {
         const Stamp stamp = row.stamp(0);
         requireRising(row, stamp, readings.empty() ? nullptr : &readings.back().stamp);
         constexpr double largest_steering = 1.0;
@@ -69,7 +68,7 @@ std::vector<OdometryReading> readOdometry(const fs::path& file) {
 
 std::vector<ImportedLog::Detection> readDetections(const fs::path& file) {
     std::vector<ImportedLog::Detection> detections;
-    forEachRow(file, 4, dataset, [&](const ColumnRow& row) {
+    forEachRow(file, 4, victoria_park::dataset, [&](const ColumnRow& row) {
         const Stamp stamp = row.stamp(0);
         if (!detections.empty() && stamp < detections.back().stamp)
             row.fail(0, "a time not before the row before, which has " + toText(detections.back().stamp));
@@ -88,7 +87,7 @@ std::vector<Stamp> readEmptyScans(const fs::path& file,
     for (const auto& d : detections) seen.insert(d.stamp);
     std::vector<Stamp> empty;
     if (!fs::exists(file)) return empty;
-    forEachRow(file, 3, dataset, [&](const ColumnRow& row) {
+    forEachRow(file, 3, victoria_park::dataset, [&](const ColumnRow& row) {
         const Stamp stamp = row.stamp(0);
         if (row.integer(1) == laser_in_manager && seen.insert(stamp).second) empty.push_back(stamp);
     });
@@ -103,7 +102,7 @@ bool isOutOfReach(const TruePose& a, const TruePose& b) {
 /// Without wild fixes, which are counted. The heading is not known.
 std::vector<TruePose> readGps(const fs::path& file, std::vector<Stamp>& wild) {
     std::vector<TruePose> fixes;
-    forEachRow(file, 3, dataset, [&](const ColumnRow& row) {
+    forEachRow(file, 3, victoria_park::dataset, [&](const ColumnRow& row) {
         const Stamp stamp = row.stamp(0);
         requireRising(row, stamp, fixes.empty() ? nullptr : &fixes.back().stamp);
         fixes.push_back({stamp, {row.number(1), row.number(2), std::numeric_limits<double>::quiet_NaN()}});
@@ -139,12 +138,12 @@ ImportResult importVictoriaPark(const std::string& in, const std::string& out,
     log.detections = readDetections(folder / "measurements.dat");
     log.empty_scans = readEmptyScans(folder / "Sensors_manager.txt", log.detections);
     log.empty_label = label;
-    log.sensor.pose = laser;
-    log.sensor.min_range = scanner::min_range;
-    log.sensor.max_range = scanner::max_range;
-    log.sensor.field_of_view = scanner::field_of_view;
-    log.std_range = scanner::std_range;
-    log.std_bearing = scanner::std_bearing;
+    log.sensor.pose = victoria_park::laser;
+    log.sensor.min_range = laser::min_range;
+    log.sensor.max_range = laser::max_range;
+    log.sensor.field_of_view = laser::field_of_view;
+    log.std_range = laser::std_range;
+    log.std_bearing = laser::std_bearing;
     Truth truth;
     std::vector<Stamp> wild;
     truth.robot = readGps(folder / "gps.dat", wild);
@@ -153,16 +152,16 @@ ImportResult importVictoriaPark(const std::string& in, const std::string& out,
         "Victoria Park, GPS: position of the antenna, taken to be the laser's; no heading; accuracy not "
         "stated, jumps "
         "of several metres occur; wild fixes are left out";
-    truth.point = laser.position();
+    truth.point = victoria_park::laser.position();
     const fs::path isam = folder / "isam_associations.txt";
     std::string labels = "no isam_associations.txt, no detection has an id";
     if (fs::exists(isam)) {
-        const LabelCounts counts = labelFromIsam(isam, log);
+        const victoria_park::LabelCounts counts = victoria_park::labelFromIsam(isam, log);
         labels = fmt::format(
             "{} of the {} landmark observations in isam_associations.txt are detections of their scan within "
             "{} m, "
             "which have their ids; the other detections have none",
-            counts.found, counts.total, label_distance);
+            counts.found, counts.total, victoria_park::label_distance);
     }
 
     const auto indices = log.write(out, progress, 0, 1);
