@@ -27,8 +27,7 @@ const PluginRegistry& registry() {
 
 class RunJobTest : public FolderTest {
   protected:
-    run::JobResult runLog(const std::string& log, const std::string& config,
-                          const std::string& out = "out") const {
+    run::JobResult runLog(const std::string& log, const std::string& config, std::string out = "out") const {
         run::RunRequest request;
         request.config = Config::fromText(config, "my.ini");
         request.log_file = path(log);
@@ -148,17 +147,15 @@ TEST_F(RunJobTest, WritesTheFilesOfTheDocumentationAndOnlyThose) {
 
 TEST_F(RunJobTest, ParticlesAreWrittenOnRequestAndChangeNothing) {
     writeLog(path("a.rawlog"), drive());
-    const std::string config =
-        "[run]\nestimator = fastslam\n[fastslam]\nparticles = 20\n[identities]\nlandmarks = "
-        "hidden\n[output]\nmap = false\n";
+    const std::string config = "[run]\nestimator = fastslam\n[fastslam]\nparticles = 20\n"
+                               "[identities]\nlandmarks = hidden\n[output]\nmap = false\n";
     const auto plain = runLog("a.rawlog", config);
     const auto without = outputs();
-    const auto asked =
-        runLog("a.rawlog", config + "particles = true\nmost_particles = 10\ntentative = true\n");
+    const std::string more = "particles = true\nmost_particles = 10\ntentative = true\n";
+    const auto asked = runLog("a.rawlog", config + more);
     EXPECT_EQ(asked.estimate_hash, plain.estimate_hash);
     EXPECT_THAT(outputs(), testing::IsSupersetOf({"particles.csv", "tentative.csv"}));
     EXPECT_EQ(outputs().size(), without.size() + 2);
-
     std::map<std::int64_t, double> sums;  // of weights, by stamp
     CsvReader particles(path("out/particles.csv"));
     while (particles.next()) sums[particles.stamp(0).ticks] += particles.number(particles.column("weight"));
@@ -172,8 +169,7 @@ TEST_F(RunJobTest, ParticlesAreWrittenOnRequestAndChangeNothing) {
         candidates.insert(tentative.integer(tentative.column("id")));
         EXPECT_LT(tentative.number(tentative.column("existence")), 1);
     }
-    for (const LandmarkEstimate& landmark : asked.record.landmarks)
-        EXPECT_EQ(candidates.count(landmark.id.value), 1u);
+    for (const auto& landmark : asked.record.landmarks) EXPECT_EQ(candidates.count(landmark.id.value), 1u);
     EXPECT_EQ(asked.record.landmarks.size(), 2u);
     runLog("a.rawlog", config);
     EXPECT_EQ(outputs(), without);
