@@ -2,32 +2,19 @@
 #include <cmath>
 #include <limits>
 
+#include "OneParticle.h"
 #include "slamot/core/particles/BernoulliMap.h"
 #include "slamot/core/random/RandomStream.h"
 #include "support/Expect.h"
-#include "support/Scenes.h"
 
 namespace slamot {
 namespace bernoulli_map_test {
 
-using test::detectionsAt;
+using test::nameless;
+using test::scanAt;
 using test::seen;
 
 constexpr double p_d = 0.7, range_limit = 20;
-
-/// One sensor of 20 m all around.
-DetectionSet scanAt(double t, std::vector<RangeBearingDetection> detections) {
-    DetectionSet set = detectionsAt(t, std::move(detections));
-    RangeBearingSensor& sensor = std::get<RangeBearingSet>(set.measurements).sensors.front();
-    sensor.label = "landmarks";
-    sensor.kind = ObjectKind::landmark;
-    sensor.max_range = range_limit;
-    return set;
-}
-
-RangeBearingDetection nameless(const Vector2& point) {
-    return seen({}, point, ObjectKind::landmark, -1);
-}
 
 /// Without a density of undetected features: what is new comes at the same rate everywhere. However unlikely
 /// something is, it is started and kept.
@@ -45,29 +32,11 @@ BernoulliMapParameters parameters() {
 constexpr double area = range_limit * 2 * pi, clutter = 2 / area, fresh = 0.5 / area,
                  unexplained = clutter + fresh;
 
-/// One particle whose pose is the origin.
-struct Particle {
+struct Particle : test::OneParticle<BernoulliMap, BernoulliFeature> {
     explicit Particle(BernoulliMapParameters p = parameters())
-        : settings(p, GaussianTransform::linear), scans(p.life, p.use_nameless) {
-        map.renew(1);
+        : OneParticle({p, GaussianTransform::linear}, {p.life, p.use_nameless}) {
+        drawn = true;
     }
-
-    double take(const DetectionSet& set, const PoseBelief& pose = {}) {
-        const ParticleScan scan = scans.scan(set);
-        map.pairUp(settings, pose, scan, work, records);
-        return map.update(settings, pose.mean, true, scan, work, records);
-    }
-    std::vector<BernoulliFeature> all() const {
-        std::vector<BernoulliFeature> out;
-        map.features().forEach([&](const BernoulliFeature& feature) { out.push_back(feature); });
-        return out;
-    }
-
-    BernoulliMap::Settings settings;
-    ScanMaker scans;
-    BernoulliMap map;
-    BernoulliMap::Work work;
-    std::vector<SightRecord> records;
 };
 
 /// What one detection makes of a feature, by the equations of a Kalman filter in another form than the map's.
@@ -227,7 +196,8 @@ TEST(BernoulliMapTest, AgreesWithEnumerationOfAllAssociations) {
                     ASSERT_TRUE(after);
                     EXPECT_NEAR(after->existence.probability(), exact.existence[n], 1e-9);
                     disputed += exact.existence[n] > 0.01 && exact.existence[n] < 0.99;
-                    // Pairs below 1e-8 are left out of the mixture, which shows where a feature hardly exists.
+                    // Pairs below 1e-8 are left out of the mixture, which shows where a feature hardly
+                    // exists.
                     if (exact.existence[n] < 0.05) continue;
                     ++compared;
                     const GaussianPoint point = exact.points[n].moments();
@@ -349,22 +319,14 @@ TEST(BernoulliMapTest, OnlyLooksThatWouldShowAFeatureSpeakAgainstIt) {
     Particle particle;
     for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0})}));
     const double before = particle.all().at(0).existence.probability();
-    DetectionSet behind = scanAt(5, {});
-    std::get<RangeBearingSet>(behind.measurements).sensors.front().field_of_view = pi;
-    std::get<RangeBearingSet>(behind.measurements).sensors.front().pose.theta = pi;
-    EXPECT_EQ(particle.take(behind), 0);
+    EXPECT_EQ(particle.take(test::scanBehind(5)), 0);
     EXPECT_EQ(particle.all().at(0).existence.probability(), before);
 }
 
 // Two sensors that see the same thing at the same time: what the first starts, the second confirms.
 TEST(BernoulliMapTest, SensorsHaveTheirTurns) {
     Particle particle;
-    DetectionSet set = scanAt(0, {nameless({5, 0}), nameless({5, 0})});
-    auto& both = std::get<RangeBearingSet>(set.measurements);
-    both.sensors.push_back(both.sensors.front());
-    both.sensors.back().label = "other";
-    both.detections.front().sensor = 1;
-    particle.take(set);
+    particle.take(test::scanOfTwo(0, {nameless({5, 0}), nameless({5, 0})}));
     double r = fresh / unexplained;
     const double N = 1 / (2 * pi * std::sqrt(0.02 * 0.0008)), hit = r * p_d * N,
                  miss = (1 - r * p_d) * unexplained;

@@ -1,28 +1,17 @@
 #include <Eigen/LU>
 
+#include "OneParticle.h"
 #include "slamot/core/particles/LandmarkFilters.h"
 #include "support/Expect.h"
-#include "support/Scenes.h"
 
 namespace slamot {
 namespace landmark_filters_test {
 
-using test::detectionsAt;
+using test::nameless;
+using test::scanAt;
+using test::scanOfTwo;
 using test::seen;
-
-/// One sensor of 20 m all around.
-DetectionSet scanAt(double t, std::vector<RangeBearingDetection> detections) {
-    DetectionSet set = detectionsAt(t, std::move(detections));
-    RangeBearingSensor& sensor = std::get<RangeBearingSet>(set.measurements).sensors.front();
-    sensor.label = "landmarks";
-    sensor.kind = ObjectKind::landmark;
-    sensor.max_range = 20;
-    return set;
-}
-
-RangeBearingDetection nameless(const Vector2& point) {
-    return seen({}, point, ObjectKind::landmark, -1);
-}
+using test::sensorOf;
 
 LandmarkFilterParameters parameters() {
     LandmarkFilterParameters out;
@@ -33,29 +22,10 @@ LandmarkFilterParameters parameters() {
     return out;
 }
 
-/// One particle whose pose is the origin.
-struct Particle {
+struct Particle : test::OneParticle<LandmarkFilters, LandmarkFilter> {
     explicit Particle(LandmarkFilterParameters p = parameters())
-        : settings(p, GaussianTransform::linear), scans(p.life, p.association != ParticleAssociation::known) {
-        map.renew(1);
+        : OneParticle({p, GaussianTransform::linear}, {p.life, p.association != ParticleAssociation::known}) {
     }
-
-    double take(const DetectionSet& set) {
-        const ParticleScan scan = scans.scan(set);
-        map.pairUp(settings, PoseBelief{}, scan, work, records);
-        return map.update(settings, Vector3::Zero(), false, scan, work, records);
-    }
-    std::vector<LandmarkFilter> all() const {
-        std::vector<LandmarkFilter> out;
-        map.features().forEach([&](const LandmarkFilter& landmark) { out.push_back(landmark); });
-        return out;
-    }
-
-    LandmarkFilters::Settings settings;
-    ScanMaker scans;
-    LandmarkFilters map;
-    LandmarkFilters::Work work;
-    std::vector<SightRecord> records;
 };
 
 TEST(LandmarkFiltersTest, NamedLandmarksWeighByTheirInnovationAlone) {
@@ -123,10 +93,7 @@ TEST(LandmarkFiltersTest, OnlyLooksThatWouldShowALandmarkSpeakAgainstIt) {
     Particle particle;
     for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0})}));
     const double before = particle.all().at(0).existence.probability();
-    DetectionSet behind = scanAt(5, {});
-    std::get<RangeBearingSet>(behind.measurements).sensors.front().field_of_view = pi;
-    std::get<RangeBearingSet>(behind.measurements).sensors.front().pose.theta = pi;
-    EXPECT_EQ(particle.take(behind), 0);
+    EXPECT_EQ(particle.take(test::scanBehind(5)), 0);
     EXPECT_EQ(particle.all().at(0).existence.probability(), before);
 }
 
@@ -157,7 +124,7 @@ TEST(LandmarkFiltersTest, WhatWasLeftBehindUnconfirmedIsLetGo) {
     Particle particle;
     particle.take(scanAt(0, {nameless({5, 0})}));
     DetectionSet elsewhere = scanAt(0, {});
-    std::get<RangeBearingSet>(elsewhere.measurements).sensors.front().max_range = 2;
+    sensorOf(elsewhere).max_range = 2;
     for (int k = 1; k <= 5; ++k) {
         elsewhere.stamp = Stamp::fromSeconds(k);
         particle.take(elsewhere);
@@ -189,14 +156,6 @@ TEST(LandmarkFiltersTest, TentativeLandmarksDoNotRefineThePose) {
 // Each sensor detects a landmark once at most: what one starts the other confirms, and what one misses
 // counts.
 TEST(LandmarkFiltersTest, SensorsHaveTheirTurns) {
-    const auto scanOfTwo = [](double t, std::vector<RangeBearingDetection> detections) {
-        DetectionSet set = scanAt(t, std::move(detections));
-        auto& both = std::get<RangeBearingSet>(set.measurements);
-        both.sensors.push_back(both.sensors.front());
-        both.sensors.back().label = "other";
-        both.detections.back().sensor = 1;
-        return set;
-    };
     Particle seen_by_both, seen_by_one;
     for (Particle* each : {&seen_by_both, &seen_by_one})
         each->take(scanOfTwo(0, {nameless({5, 0}), nameless({5, 0})}));
@@ -218,8 +177,7 @@ TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {
     Particle particle;
     for (int k = 0; k < 64; ++k) {
         const double x = 5 + 100.0 * (k / 16);
-        DetectionSet set = scanAt(k, {seen({}, {x, 0.1 * (k % 16)}, ObjectKind::landmark, k)});
-        particle.take(set);
+        particle.take(scanAt(k, {seen({}, {x, 0.1 * (k % 16)}, ObjectKind::landmark, k)}));
     }
     LandmarkFilters copy = particle.map;
     copy.renew(2);

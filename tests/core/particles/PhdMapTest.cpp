@@ -1,27 +1,20 @@
+#include "OneParticle.h"
 #include "slamot/core/particles/PhdMap.h"
 #include "support/Expect.h"
-#include "support/Scenes.h"
 
 namespace slamot {
 namespace phd_map_test {
 
+using test::nameless;
+using test::sensorOf;
+
 constexpr double p_d = 0.8;
 
-/// One sensor of 20 m all round.
-DetectionSet scanAt(double t, std::vector<Vector2> points, const Pose2& robot = {}) {
+/// A scan that sees these points and no identities.
+DetectionSet scanAt(double t, const std::vector<Vector2>& points, const Pose2& robot = {}) {
     std::vector<RangeBearingDetection> detections;
-    for (const Vector2& point : points)
-        detections.push_back(test::seen(robot, point, ObjectKind::landmark, -1));
-    DetectionSet set = test::detectionsAt(t, detections);
-    RangeBearingSensor& sensor = std::get<RangeBearingSet>(set.measurements).sensors.front();
-    sensor.label = "landmarks";
-    sensor.kind = ObjectKind::landmark;
-    sensor.max_range = 20;
-    return set;
-}
-
-RangeBearingSensor& sensorOf(DetectionSet& set) {
-    return std::get<RangeBearingSet>(set.measurements).sensors.front();
+    for (const Vector2& point : points) detections.push_back(test::nameless(point, robot));
+    return test::scanAt(t, std::move(detections));
 }
 
 /// Births weigh 0.75: with lambda = 2, c = 1 / (20 pi).
@@ -41,35 +34,15 @@ double density(double off) {
     return std::exp(-0.5 * off * off / 0.02) / (2 * pi * std::sqrt(0.02 * 0.0008));
 }
 
-/// One particle, at the origin unless said otherwise.
-struct Particle {
+struct Particle : test::OneParticle<PhdMap, PhdFeature> {
     explicit Particle(PhdMapParameters p = parameters())
-        : settings(p, GaussianTransform::linear), scans(p.clutter(), true) {
-        map.renew(1);
-    }
+        : OneParticle({p, GaussianTransform::linear}, {p.clutter(), true}) {}
 
-    double take(const DetectionSet& set, const Pose2& pose = {}) {
-        const ParticleScan scan = scans.scan(set);
-        work = {};
-        map.pairUp(settings, PoseBelief{pose.vector(), Matrix3::Zero()}, scan, work, records);
-        return map.update(settings, pose.vector(), false, scan, work, records);
-    }
-    std::vector<PhdFeature> all() const {
-        std::vector<PhdFeature> out;
-        map.features().forEach([&](const PhdFeature& feature) { out.push_back(feature); });
-        return out;
-    }
     double total() const {
         double out = 0;
         for (const PhdFeature& feature : all()) out += feature.weight;
         return out;
     }
-
-    PhdMap::Settings settings;
-    ScanMaker scans;
-    PhdMap map;
-    PhdMap::Work work;
-    std::vector<SightRecord> records;
 };
 
 TEST(PhdMapTest, BirthsJoinAtTheNextStep) {
@@ -197,7 +170,7 @@ TEST(PhdMapTest, BirthsFromAnyPoseAndSensor) {
     for (const GaussianTransform transform : {GaussianTransform::linear, GaussianTransform::unscented}) {
         DetectionSet set = scanAt(0, {});
         sensorOf(set).pose = mount;
-        const RangeBearingDetection z = test::seen(pose, {7, 4}, ObjectKind::landmark, -1, mount);
+        const RangeBearingDetection z = nameless({7, 4}, pose, mount);
         std::get<RangeBearingSet>(set.measurements).detections.push_back(z);
         Particle particle;
         particle.settings.transform = transform;
@@ -302,7 +275,7 @@ TEST(PhdMapTest, OnlyLandmarksRefineThePoseAndEachByOneDetection) {
     const PoseBelief once = refined(heavy, {{5, 0}});
     const PointSight sight = sightOf(heavy.all().at(0).point, belief, {}, GaussianTransform::linear);
     RefinedPose expected(belief);
-    const RangeBearingDetection z = test::seen({}, {5, 0}, ObjectKind::landmark, -1);
+    const RangeBearingDetection z = nameless({5, 0});
     expected.take(sight, PointInnovation(sight, z.z(), z.covariance));
     EXPECT_EQ(once.factor, expected.belief().factor);
 
@@ -315,12 +288,7 @@ TEST(PhdMapTest, OnlyLandmarksRefineThePoseAndEachByOneDetection) {
 // One after the other: what the first sensor has seen the second may miss.
 TEST(PhdMapTest, TwoSensorsUpdateTheMapInTurn) {
     Particle particle;
-    DetectionSet set = scanAt(0, {{5, 0}});
-    auto& seen = std::get<RangeBearingSet>(set.measurements);
-    seen.sensors.push_back(seen.sensors.front());
-    seen.sensors.back().label = "others";
-    seen.detections.push_back(test::seen({}, {0, 8}, ObjectKind::landmark, -1));
-    seen.detections.back().sensor = 1;
+    DetectionSet set = test::scanOfTwo(0, {nameless({5, 0}), nameless({0, 8})});
     particle.take(set);
     ASSERT_EQ(particle.all().size(), 2u);
     set.stamp = Stamp::fromSeconds(1);

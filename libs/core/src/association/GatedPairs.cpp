@@ -24,7 +24,7 @@ GatedPairs gatedPairs(const JointView& state, const std::vector<BlockId>& object
     std::map<int, std::vector<std::optional<ExpectedSight>>> by_sensor;
     for (const int d : detections) {
         const RangeBearingDetection& detection = seen.detections[static_cast<std::size_t>(d)];
-        const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+        const Pose2& sensor = seen.sensorOf(detection).pose;
         auto& expected = by_sensor[detection.sensor];
         expected.resize(objects.size());
         for (std::size_t o = 0; o < objects.size(); ++o) {

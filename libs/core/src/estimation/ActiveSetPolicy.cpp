@@ -45,7 +45,7 @@ void ActiveSetPolicy::look(const Attention& attention) {
     }
     for (const RangeBearingDetection& detection : attention.seen.detections) {
         if (detection.kind != ObjectKind::landmark) continue;
-        const RangeBearingSensor& seen = attention.seen.sensors[static_cast<std::size_t>(detection.sensor)];
+        const RangeBearingSensor& seen = attention.seen.sensorOf(detection);
         const double limit = parameters_.range.value_or(seen.max_range);
         const double range = limit > 0 ? limit : detection.range;
         Sensor& sensor = of(seen);

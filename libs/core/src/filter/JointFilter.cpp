@@ -64,9 +64,7 @@ void JointFilter::setModels(Stamp stamp) {
 }
 
 void JointFilter::endUnseenTracks(Stamp now) {
-    for (std::size_t i = objects_.tracks().size(); i-- > 0;) {
-        const TrackRecord track = objects_.tracks()[i];
-        if (secondsBetween(track.last_seen, now) <= parameters_.target_max_unseen) continue;
+    for (const TrackRecord& track : objects_.tracksUnseenFor(parameters_.target_max_unseen, now)) {
         if (track.life) life_.lost(*belief_, track, now);
         belief_.removeTarget(track.block);
         objects_.removeTrack(track.id);
@@ -146,8 +144,8 @@ void JointFilter::startNamed(const RangeBearingSet& seen, Stamp now, std::vector
 }
 
 void JointFilter::start(const RangeBearingSet& seen, Stamp now, Innovation& innovation) {
-    const RangeBearingDetection& detection = seen.detections[static_cast<std::size_t>(innovation.detection)];
-    const Pose2& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+    const RangeBearingDetection& detection = seen.detection(innovation.detection);
+    const Pose2& sensor = seen.sensorOf(detection).pose;
     const RelativeGaussian point = firstSight(detection, sensor, parameters_.consistency);
     innovation.outcome = Outcome::ignored;
     // Known by now: the same new object twice in one batch, and the first has started it.
@@ -181,22 +179,9 @@ PoseGaussian JointFilter::robot() const {
 std::vector<TrackEstimate> JointFilter::tracks() const {
     std::vector<TrackEstimate> out;
     out.reserve(objects_.tracks().size());
-    for (const TrackRecord& track : objects_.tracks()) {
-        const TargetBelief belief = belief_->target(track.block);
-        TrackEstimate estimate;
-        estimate.id = track.id;
-        estimate.source = track.source;
-        estimate.mean = belief.mean;
-        estimate.covariance = belief.covariance;
-        if (track.life) {
-            estimate.existence = track.life->existence.probability();
-            estimate.moving = track.life->moving;
-        }
-        if (!parameters_.imm.modes.empty())
-            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
-                                               belief.mode_probabilities.end());
-        out.push_back(std::move(estimate));
-    }
+    for (const TrackRecord& track : objects_.tracks())
+        out.push_back(
+            slamot::estimateOf(track, belief_->target(track.block), !parameters_.imm.modes.empty()));
     return out;
 }
 
@@ -233,8 +218,15 @@ std::vector<LandmarkEstimate> JointFilter::tentative() const {
         if (moving == 1) continue;
         const NewBlock place = inWorld(object.track.asLandmark(), pose.mean.vector());
         const Matrix2 covariance = place.G * pose.covariance * place.G.transpose() + place.own;
-        out.push_back({{}, {}, place.mean, covariance, object.seen, object.first_seen, object.last_seen,
-                       object.existence.probability(), moving});
+        out.push_back({{},
+                       {},
+                       place.mean,
+                       covariance,
+                       object.seen,
+                       object.first_seen,
+                       object.last_seen,
+                       object.existence.probability(),
+                       moving});
     }
     return out;
 }

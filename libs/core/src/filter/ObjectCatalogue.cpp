@@ -1,6 +1,9 @@
 #include "slamot/core/filter/ObjectCatalogue.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include "slamot/core/estimation/ModalState.h"
 
 namespace slamot {
 namespace {
@@ -15,6 +18,21 @@ auto* find(Records& records, Id id) {
 
 double visiblePart(const std::optional<ObjectLifeRecord>& life) {
     return life ? std::max(life->existence.visibility() / life->existence.probability(), 0.1) : 1.0;
+}
+
+TrackEstimate estimateOf(const TrackRecord& track, const TargetBelief& belief, bool tell_modes) {
+    TrackEstimate out;
+    out.id = track.id;
+    out.source = track.source;
+    out.mean = belief.mean;
+    out.covariance = belief.covariance;
+    if (track.life) {
+        out.existence = track.life->existence.probability();
+        out.moving = track.life->moving;
+    }
+    if (tell_modes)
+        out.mode_probabilities.assign(belief.mode_probabilities.begin(), belief.mode_probabilities.end());
+    return out;
 }
 
 LandmarkRecord& ObjectCatalogue::addLandmark(BlockId block, SourceId source, Stamp now) {
@@ -95,6 +113,13 @@ TrackRecord* ObjectCatalogue::trackOf(BlockId block) {
     const auto found =
         std::find_if(tracks_.begin(), tracks_.end(), [block](const auto& t) { return t.block == block; });
     return found == tracks_.end() ? nullptr : &*found;
+}
+
+std::vector<TrackRecord> ObjectCatalogue::tracksUnseenFor(double longest, Stamp now) const {
+    std::vector<TrackRecord> out;
+    std::copy_if(tracks_.rbegin(), tracks_.rend(), std::back_inserter(out),
+                 [&](const TrackRecord& track) { return secondsBetween(track.last_seen, now) > longest; });
+    return out;
 }
 
 }  // namespace slamot

@@ -2,8 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <set>
-#include <tuple>
 
 #include "slamot/core/objects/FieldOfView.h"
 
@@ -14,14 +12,6 @@ namespace {
 constexpr double farthest_duplicate = 5;
 /// What two landmarks that are one may lie apart [m] when they are merged.
 constexpr double merged_apart = 0.01;
-
-const RangeBearingDetection& detectionOf(const AssociatedBatch& batch, int d) {
-    return batch.seen.detections[static_cast<std::size_t>(d)];
-}
-
-const Pose2& sensorOf(const AssociatedBatch& batch, const RangeBearingDetection& detection) {
-    return batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
-}
 
 /// Neither seen nor missed.
 bool isInDoubt(const AssociatedBatch& batch, BlockId block) {
@@ -36,75 +26,21 @@ bool surelySeenByAny(const GatheredView& view, BlockId block, ObjectKind kind, c
     });
 }
 
-TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double velocity_std,
-                                        double acceleration_std, double gate_probability) {
-    return {p.landmarks,      p.movers,     p.change,        p.decide_probability,
-            gate_probability, velocity_std, acceleration_std};
-}
-
 }  // namespace
-
-void describeLandmarks(ObjectLifeParameters& p, ParameterTable& landmarks) {
-    describe(p.landmarks, "landmarks", landmarks);
-    landmarks.real("merge_probability", p.merge_probability, "-", Interval::openProbability(),
-                   "Of two landmarks being one, at which they are merged.");
-}
-
-void describeMovers(ObjectLifeParameters& p, ParameterTable& movers) {
-    describe(p.movers, "movers", movers);
-    movers
-        .choice("birth", p.birth,
-                {{"two_point", TrackBirth::two_point}, {"one_point", TrackBirth::one_point}},
-                "two_point: a new mover has the velocity that the detections before its confirmation show; "
-                "one_point: the prior, whatever they show.")
-        .real("reidentify_within", p.reidentify_within, "s", Interval::nonNegative(),
-              "A mover that comes back within that time after its track ended has its number again.")
-        .real("reidentify_probability", p.reidentify_probability, "-", Interval::openProbability(),
-              "Part of the movers that come back which lie inside the gate of the ended track's prediction.");
-}
-
-ParameterTable describeMixed(ObjectLifeParameters& p, const std::string& name) {
-    ParameterTable mixed(name + ".mixed",
-                         "Detections of which the sensor does not tell landmark from mover.");
-    mixed
-        .real("moving_probability", p.change.moving_probability, "-", Interval::openProbability(),
-              "P(moving) of an object at first sight.")
-        .real("start_every", p.change.start_every, "s", Interval::positiveOrInfinite(),
-              "Time that a still object stays still, on average.")
-        .real("stop_every", p.change.stop_every, "s", Interval::positiveOrInfinite(),
-              "Time that a mover keeps moving, on average.")
-        .real("velocity_std", p.change.velocity_std, "m/s", Interval::positive(),
-              "Of each velocity component of what begins to move.")
-        .real("decide_probability", p.decide_probability, "-", Interval{0.5, 1, true, true},
-              "P(moving) above which an object becomes a mover; below 1 - this it becomes a landmark.");
-    return mixed;
-}
 
 ObjectLife::ObjectLife(const ObjectLifeParameters& parameters, Consistency consistency, double velocity_std,
                        double acceleration_std, double gate_probability)
     : parameters_(parameters),
       consistency_(consistency),
-      velocity_std_(velocity_std),
-      acceleration_std_(acceleration_std),
       pair_gate_(chiSquareQuantile(gate_probability, 2)),
-      tentative_(tentativeParameters(parameters, velocity_std, acceleration_std, gate_probability)),
-      kinds_(parameters.change),
-      duplicates_(parameters.landmarks.detection_probability, parameters.merge_probability),
-      lost_(parameters.reidentify_probability, parameters.reidentify_within) {}
+      watch_(parameters, consistency, velocity_std, acceleration_std, gate_probability),
+      duplicates_(parameters.landmarks.detection_probability, parameters.merge_probability) {}
 
 void ObjectLife::clear() {
-    tentative_.clear();
+    watch_.clear();
     poses_.clear();
-    kinds_.clear();
     duplicates_ = DuplicateWatch(parameters_.landmarks.detection_probability, parameters_.merge_probability);
-    lost_.clear();
     last_scan_ = {};
-}
-
-void ObjectLife::predict(const RelativeStep& step, const TargetModel& model) {
-    tentative_.predict(step, model);
-    kinds_.predict(step, model);
-    lost_.predict(step.dt, model);
 }
 
 void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
@@ -119,14 +55,12 @@ void ObjectLife::follow(ModalBelief& belief, ObjectCatalogue& objects, const Ass
     merge(belief, objects);
     removeLost(belief, objects, batch, now);
     last_scan_ = now;
-    lost_.forgetOld(now);
 
     for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
-    for (const ConfirmedObject& confirmed :
-         tentative_.update(batch.seen, now, unexplained, batch.may_be_new, consistency_))
+    for (const ConfirmedObject& confirmed : watch_.confirmed(batch.seen, now, unexplained, batch.may_be_new))
         admit(belief, objects, confirmed, now, innovations[static_cast<std::size_t>(confirmed.detection)]);
 
-    if (tentative_.size() > 0) poses_.remember(*belief, now);
+    if (!watch_.tentative().empty()) poses_.remember(*belief, now);
     for (const BlockId block : belief->bank().landmarksWithinReach())
         objects.place(block, belief->mean(block).head<2>());
 }
@@ -185,21 +119,19 @@ void ObjectLife::removeLost(ModalBelief& belief, ObjectCatalogue& objects, const
 }
 
 void ObjectLife::lost(const ModalState& belief, const TrackRecord& track, Stamp now) {
-    const TargetBelief last = belief.target(track.block);
-    lost_.add({track.id, last.mean, last.covariance, now});
-    kinds_.forget(track.block);
+    watch_.lost(track, belief.target(track.block), now);
 }
 
 void ObjectLife::removeLandmark(ModalBelief& belief, ObjectCatalogue& objects,
                                 const LandmarkRecord& landmark) {
     duplicates_.forget(landmark.block);
-    kinds_.forget(landmark.block);
+    watch_.forget(landmark.block);
     belief->removeLandmark(landmark.block);
     objects.removeLandmark(landmark.id);
 }
 
 void ObjectLife::removeTrack(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track) {
-    kinds_.forget(track.block);
+    watch_.forget(track.block);
     belief.removeTarget(track.block);
     objects.removeTrack(track.id);
 }
@@ -247,7 +179,7 @@ void ObjectLife::merge(ModalBelief& belief, ObjectCatalogue& objects) {
         first->last_seen = std::max(first->last_seen, second->last_seen);
         const LandmarkId second_id = second->id;
         duplicates_.forget(gone);
-        kinds_.forget(gone);
+        watch_.forget(gone);
         belief->mergeLandmarks(kept, gone, merged_apart);
         objects.removeLandmark(second_id);
     }
@@ -263,29 +195,17 @@ void ObjectLife::changeKinds(ModalBelief& belief, ObjectCatalogue& objects, cons
         TrackRecord* track = objects.trackOf(block);
         std::optional<ObjectLifeRecord>& life = landmark ? landmark->life : track->life;
         if (!life || life->seen_as != ObjectKind::unknown) continue;
-        const RangeBearingDetection& detection = detectionOf(batch, d);
-        const Pose2& sensor = sensorOf(batch, detection);
-        life->moving = kinds_.look(block, life->moving, detection, sensor, consistency_);
-        if (landmark && (life->moving < parameters_.decide_probability || !belief.hasRoom())) continue;
-        if (track && life->moving > 1 - parameters_.decide_probability) continue;
-
-        if (landmark)
-            becomeMover(belief, objects, *landmark, detection, sensor, now);
-        else
-            becomeLandmark(belief, objects, *track, detection, sensor, now);
+        life->moving = watch_.look(block, life->moving, batch.seen, d);
+        if (landmark && watch_.moves(life->moving) && belief.hasRoom())
+            becomeMover(belief, objects, *landmark, batch, d, now);
+        else if (track && watch_.stands(life->moving))
+            becomeLandmark(belief, objects, *track, batch, d, now);
     }
 }
 
-// An object's position begins anew with the detection that shows its kind: what came before was of another.
-
 TrackId ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark,
-                                const RangeBearingDetection& detection, const Pose2& sensor, Stamp now) {
-    const RelativeGaussian point = firstSight(detection, sensor, consistency_);
-    RelativeGaussian mover = kinds_.asMover(landmark.block);
-    mover.mean.head<2>() = point.mean;
-    mover.covariance.topRows<2>().setZero();
-    mover.covariance.leftCols<2>().setZero();
-    mover.covariance.topLeftCorner<2, 2>() = point.covariance;
+                                const AssociatedBatch& batch, int d, Stamp now) {
+    const RelativeGaussian mover = watch_.asMover(landmark.block, batch.seen, d);
     const LandmarkRecord was = landmark;
     removeLandmark(belief, objects, was);
     TrackRecord& started = objects.addTrack(belief.addTarget(mover).value(), {}, now);
@@ -295,11 +215,10 @@ TrackId ObjectLife::becomeMover(ModalBelief& belief, ObjectCatalogue& objects, c
 }
 
 void ObjectLife::becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track,
-                                const RangeBearingDetection& detection, const Pose2& sensor, Stamp now) {
+                                const AssociatedBatch& batch, int d, Stamp now) {
     const TrackRecord was = track;
     removeTrack(belief, objects, was);
-    LandmarkRecord& stopped =
-        objects.addLandmark(belief->addLandmark(firstSight(detection, sensor, consistency_)), {}, now);
+    LandmarkRecord& stopped = objects.addLandmark(belief->addLandmark(watch_.anew(batch.seen, d)), {}, now);
     stopped.first_seen = was.first_seen;
     objects.place(stopped.block, belief->mean(stopped.block).head<2>());
     objects.giveLife(stopped, *was.life);
@@ -308,44 +227,13 @@ void ObjectLife::becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, c
 std::vector<int> ObjectLife::findMoved(ModalBelief& belief, ObjectCatalogue& objects,
                                        const AssociatedBatch& batch, const std::vector<BlockId>& missed,
                                        Stamp now, std::vector<Innovation>& innovations) {
-    struct Aside {
-        double nis;
-        BlockId block;
-        int detection;
-        bool operator<(const Aside& other) const {
-            return std::tie(nis, block, detection) < std::tie(other.nis, other.block, other.detection);
-        }
-    };
-    std::vector<Aside> all;
-    for (const int d : batch.unexplained) {
-        const RangeBearingDetection& detection = detectionOf(batch, d);
-        if (detection.kind != ObjectKind::unknown) continue;
-        for (const BlockId block : missed) {
-            const auto nis = kinds_.nisAsMover(block, detection, sensorOf(batch, detection));
-            if (nis && *nis <= pair_gate_) all.push_back({*nis, block, d});
-        }
-    }
-    std::sort(all.begin(), all.end());
-
     std::vector<int> unexplained = batch.unexplained;
-    std::set<BlockId> looked;
-    std::set<int> taken;
-    for (const Aside& aside : all) {
-        if (looked.count(aside.block) > 0 || taken.count(aside.detection) > 0) continue;
-        looked.insert(aside.block);
-        taken.insert(aside.detection);
-        LandmarkRecord* landmark = objects.landmarkOf(aside.block);
-        const RangeBearingDetection& detection = detectionOf(batch, aside.detection);
-        const RangeBearingSensor& sensor = batch.seen.sensors[static_cast<std::size_t>(detection.sensor)];
-        landmark->life->moving =
-            kinds_.lookAside(aside.block, detection, sensor.pose, parameters_.landmarks.detection_probability,
-                             unexplainedDensity(parameters_.landmarks, sensor));
-        if (landmark->life->moving < parameters_.decide_probability || !belief.hasRoom()) continue;
-        const TrackId track = becomeMover(belief, objects, *landmark, detection, sensor.pose, now);
-        Innovation& innovation = innovations[static_cast<std::size_t>(aside.detection)];
-        innovation.kind = ObjectKind::mover;
-        innovation.track = track;
-        innovation.outcome = Outcome::initiated;
+    for (const ObjectWatch::Aside& aside : watch_.lookAside(missed, batch.seen, batch.unexplained)) {
+        LandmarkRecord* landmark = objects.landmarkOf(missed[aside.object]);
+        landmark->life->moving = aside.moving;
+        if (!watch_.moves(aside.moving) || !belief.hasRoom()) continue;
+        const TrackId track = becomeMover(belief, objects, *landmark, batch, aside.detection, now);
+        tellStarted(innovations[static_cast<std::size_t>(aside.detection)], track);
         unexplained.erase(std::find(unexplained.begin(), unexplained.end(), aside.detection));
     }
     return unexplained;
@@ -374,23 +262,13 @@ void ObjectLife::admit(ModalBelief& belief, ObjectCatalogue& objects, const Conf
         landmark.first_seen = object.first_seen;
         objects.place(landmark.block, belief->mean(landmark.block).head<2>());
         objects.giveLife(landmark, life);
-        innovation.kind = ObjectKind::landmark;
-        innovation.landmark = landmark.id;
-    } else {
-        RelativeGaussian mover = object.track.asMover();
-        if (parameters_.birth == TrackBirth::one_point)
-            mover = moverAt({mover.mean.head<2>(), mover.covariance.topLeftCorner<2, 2>()}, velocity_std_,
-                            acceleration_std_);
-        const std::optional<BlockId> block = belief.addTarget(mover);
-        if (!block) return;
-        const TargetBelief born = belief->target(*block);
-        TrackRecord& track = objects.addTrack(*block, {}, now, lost_.continuedBy(born.mean, born.covariance));
+        tellStarted(innovation, landmark.id);
+    } else if (const std::optional<BlockId> block = belief.addTarget(watch_.firstMover(object))) {
+        TrackRecord& track = objects.addTrack(*block, {}, now, watch_.continuedBy(belief->target(*block)));
         track.first_seen = object.first_seen;
         objects.giveLife(track, life);
-        innovation.kind = ObjectKind::mover;
-        innovation.track = track.id;
+        tellStarted(innovation, track.id);
     }
-    innovation.outcome = Outcome::initiated;
 }
 
 }  // namespace slamot

@@ -6,7 +6,7 @@ namespace slamot {
 
 RangeBearingSet SensorLimits::completed(RangeBearingSet seen) {
     for (const RangeBearingDetection& detection : seen.detections) {
-        const RangeBearingSensor& sensor = seen.sensors[static_cast<std::size_t>(detection.sensor)];
+        const RangeBearingSensor& sensor = seen.sensorOf(detection);
         if (sensor.max_range > 0) continue;
         double& farthest = farthest_[sensor.label];
         farthest = std::max(farthest, detection.range);

@@ -25,7 +25,7 @@ std::vector<double> unexplainedDensities(const LifeParameters& landmarks, const 
     std::vector<double> out;
     for (const RangeBearingDetection& detection : seen.detections) {
         const LifeParameters& life = detection.kind == ObjectKind::mover ? movers : landmarks;
-        out.push_back(unexplainedDensity(life, seen.sensors[static_cast<std::size_t>(detection.sensor)]));
+        out.push_back(unexplainedDensity(life, seen.sensorOf(detection)));
     }
     return out;
 }
@@ -37,13 +37,6 @@ struct TentativeObjects::Batch {
     const std::vector<int>& unexplained;
     const std::vector<bool>& may_start;
     Consistency consistency;
-
-    const RangeBearingDetection& detection(int d) const {
-        return seen.detections[static_cast<std::size_t>(d)];
-    }
-    const RangeBearingSensor& sensorOf(int d) const {
-        return seen.sensors[static_cast<std::size_t>(detection(d).sensor)];
-    }
 };
 
 void TentativeObject::keep(const TentativeSight& sight) {
@@ -89,7 +82,7 @@ DetectionModel TentativeObjects::detectionModel(const Batch& batch,
                                               object.existence.visibility() / object.existence.probability());
     for (const int d : detections)
         model.clutter_density.push_back(
-            unexplainedDensity(lifeOf(batch.detection(d).kind), batch.sensorOf(d)));
+            unexplainedDensity(lifeOf(batch.seen.detection(d).kind), batch.seen.sensorOf(d)));
     return model;
 }
 
@@ -98,8 +91,8 @@ AssociationProblem TentativeObjects::candidates(const Batch& batch, const std::v
     const double gate = gates_(1);
     std::vector<Candidate> pairs;
     for (std::size_t i = 0; i < detections.size(); ++i) {
-        const RangeBearingDetection& detection = batch.detection(detections[i]);
-        const Pose2& sensor = batch.sensorOf(detections[i]).pose;
+        const RangeBearingDetection& detection = batch.seen.detection(detections[i]);
+        const Pose2& sensor = batch.seen.sensorOf(detections[i]).pose;
         for (std::size_t o = 0; o < objects_.size(); ++o) {
             const TentativeObject& object = objects_[o];
             if (detection.kind != object.kind && detection.kind != ObjectKind::unknown) continue;
@@ -116,7 +109,7 @@ void TentativeObjects::look(int sensor_number, const Batch& batch, std::vector<i
     const RangeBearingSensor& sensor = batch.seen.sensors[static_cast<std::size_t>(sensor_number)];
     std::vector<int> detections;
     for (const int d : batch.unexplained)
-        if (batch.detection(d).sensor == sensor_number) detections.push_back(d);
+        if (batch.seen.detection(d).sensor == sensor_number) detections.push_back(d);
     std::vector<ExpectedDetection> expected;
     for (const TentativeObject& object : objects_) expected.push_back(object.track.expected(sensor.pose));
 
@@ -137,8 +130,8 @@ void TentativeObjects::look(int sensor_number, const Batch& batch, std::vector<i
         const double density =
             lifeOf(object.kind).detection_probability * std::exp(problem.candidate(c).log_likelihood);
         object.existence.detected(density / model.clutter_density[i]);
-        object.track.update(batch.detection(detections[i]), sensor.pose);
-        object.keep({batch.now, batch.detection(detections[i]), sensor.pose});
+        object.track.update(batch.seen.detection(detections[i]), sensor.pose);
+        object.keep({batch.now, batch.seen.detection(detections[i]), sensor.pose});
         object.seen += 1;
         object.last_seen = batch.now;
         is_seen[o] = true;
@@ -154,10 +147,10 @@ void TentativeObjects::look(int sensor_number, const Batch& batch, std::vector<i
 }
 
 bool TentativeObjects::start(int detection, const Batch& batch) {
-    const RangeBearingDetection& seen = batch.detection(detection);
+    const RangeBearingDetection& seen = batch.seen.detection(detection);
     const Existence existence(lifeOf(seen.kind));
     if (!(existence.probability() > 0)) return false;  // no new objects are expected
-    const RelativeGaussian point = firstSight(seen, batch.sensorOf(detection).pose, batch.consistency);
+    const RelativeGaussian point = firstSight(seen, batch.seen.sensorOf(detection).pose, batch.consistency);
     const auto track = [&] {
         switch (seen.kind) {
             case ObjectKind::landmark:
@@ -175,7 +168,7 @@ bool TentativeObjects::start(int detection, const Batch& batch) {
                         1,
                         batch.now,
                         batch.now,
-                        {{batch.now, seen, batch.sensorOf(detection).pose}}});
+                        {{batch.now, seen, batch.seen.sensorOf(detection).pose}}});
     return true;
 }
 

@@ -13,11 +13,11 @@ constexpr std::size_t most_poses = 20;
 
 void LandmarksAndTargets::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                                  Work& work, std::vector<SightRecord>& records) const {
-    findRivals(settings, pose, scan, work);
+    findSightsOfMovers(settings, pose, scan, work);
     landmarks_.pairUp(settings.landmarks, pose, scan, work, records);
 }
 
-void LandmarksAndTargets::findRivals(const Settings& settings, const PoseBelief& pose,
+void LandmarksAndTargets::findSightsOfMovers(const Settings& settings, const PoseBelief& pose,
                                      const ParticleScan& scan, Work& work) const {
     work.of_movers.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {

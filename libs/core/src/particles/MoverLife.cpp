@@ -1,27 +1,11 @@
 #include "slamot/core/particles/MoverLife.h"
 
 #include <algorithm>
-#include <set>
-#include <tuple>
 
 #include "slamot/core/objects/FieldOfView.h"
 
 namespace slamot {
 namespace {
-
-const RangeBearingDetection& detectionOf(const MoverBatch& batch, int d) {
-    return batch.seen.detections[static_cast<std::size_t>(d)];
-}
-
-const RangeBearingSensor& sensorOf(const MoverBatch& batch, int d) {
-    return batch.seen.sensors[static_cast<std::size_t>(detectionOf(batch, d).sensor)];
-}
-
-TentativeParameters tentativeParameters(const ObjectLifeParameters& p, double velocity_std, double acceleration_std,
-                                        double gate_probability) {
-    return {p.landmarks,      p.movers,     p.change,        p.decide_probability,
-            gate_probability, velocity_std, acceleration_std};
-}
 
 /// Whether a sensor that reports `kind` could not but show it.
 bool surelySeenByAny(const MoverBatch& batch, ObjectKind kind, const MergedTargets& view, BlockId mover,
@@ -51,25 +35,13 @@ MoverLife::MoverLife(const ObjectLifeParameters& parameters, Consistency consist
                      double acceleration_std, double gate_probability)
     : parameters_(parameters),
       consistency_(consistency),
-      velocity_std_(velocity_std),
-      acceleration_std_(acceleration_std),
       pair_gate_(chiSquareQuantile(gate_probability, 2)),
-      tentative_(tentativeParameters(parameters, velocity_std, acceleration_std, gate_probability)),
-      kinds_(parameters.change),
-      lost_(parameters.reidentify_probability, parameters.reidentify_within) {}
+      watch_(parameters, consistency, velocity_std, acceleration_std, gate_probability) {}
 
 void MoverLife::clear() {
-    tentative_.clear();
-    kinds_.clear();
-    lost_.clear();
+    watch_.clear();
     mixed_.clear();
     last_watch_ = robot_block;
-}
-
-void MoverLife::predict(const RelativeStep& step, const TargetModel& model) {
-    tentative_.predict(step, model);
-    kinds_.predict(step, model);
-    lost_.predict(step.dt, model);
 }
 
 void MoverLife::follow(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
@@ -83,11 +55,10 @@ void MoverLife::follow(TargetParticles& particles, ObjectCatalogue& tracks, cons
         lost(particles, track, batch.now);
         removeTrack(particles, tracks, track);
     }
-    lost_.forgetOld(batch.now);
 
     for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
     for (const ConfirmedObject& confirmed :
-         tentative_.update(batch.seen, batch.now, unexplained, batch.may_be_new, consistency_))
+         watch_.confirmed(batch.seen, batch.now, unexplained, batch.may_be_new))
         admit(particles, tracks, confirmed, batch.now, innovations[static_cast<std::size_t>(confirmed.detection)]);
 }
 
@@ -118,13 +89,11 @@ void MoverLife::judge(const TargetParticles& particles, ObjectCatalogue& tracks,
 }
 
 void MoverLife::lost(const TargetParticles& particles, const TrackRecord& track, Stamp now) {
-    const TargetBelief last = particles.target(track.block);
-    lost_.add({track.id, last.mean, last.covariance, now});
-    kinds_.forget(track.block);
+    watch_.lost(track, particles.target(track.block), now);
 }
 
 void MoverLife::removeTrack(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track) {
-    kinds_.forget(track.block);
+    watch_.forget(track.block);
     particles.removeTarget(track.block);
     tracks.removeTrack(TrackId(track.id));
 }
@@ -138,25 +107,16 @@ void MoverLife::changeKinds(TargetParticles& particles, ObjectCatalogue& tracks,
         if (found == mixed_.end()) continue;
         MixedLandmark& landmark = found->second;
         landmark.last_seen = batch.now;
-        landmark.moving = kinds_.look(landmark.watch, landmark.moving, detectionOf(batch, verdict.detection),
-                                      sensorOf(batch, verdict.detection).pose, consistency_);
-        if (landmark.moving >= parameters_.decide_probability)
+        landmark.moving = watch_.look(landmark.watched_as, landmark.moving, batch.seen, verdict.detection);
+        if (watch_.moves(landmark.moving))
             becomeMover(particles, tracks, verdict.landmark, batch, verdict.detection);
     }
     for (const auto& [block, d] : batch.sights) {
         TrackRecord* track = tracks.trackOf(block);
         if (!track->life || track->life->seen_as != ObjectKind::unknown) continue;
-        track->life->moving = kinds_.look(block, track->life->moving, detectionOf(batch, d), sensorOf(batch, d).pose,
-                                          consistency_);
-        if (track->life->moving <= 1 - parameters_.decide_probability)
-            becomeLandmark(particles, tracks, *track, batch, d);
+        track->life->moving = watch_.look(block, track->life->moving, batch.seen, d);
+        if (watch_.stands(track->life->moving)) becomeLandmark(particles, tracks, *track, batch, d);
     }
-}
-
-// An object's position begins anew with the detection that shows its kind: what came before was of another.
-
-RelativeGaussian MoverLife::sightAlone(const MoverBatch& batch, int d) const {
-    return firstSight(detectionOf(batch, d), sensorOf(batch, d).pose, consistency_);
 }
 
 TrackId MoverLife::becomeMover(TargetParticles& particles, ObjectCatalogue& tracks, LandmarkId landmark,
@@ -165,13 +125,8 @@ TrackId MoverLife::becomeMover(TargetParticles& particles, ObjectCatalogue& trac
     const LandmarkFilter* record = particles.particles().best().find(landmark);
     const Stamp first_seen = record ? record->first_seen : batch.now;
     const Existence existence = record ? record->existence : Existence(parameters_.landmarks);
-    const RelativeGaussian point = sightAlone(batch, d);
-    RelativeGaussian mover = kinds_.asMover(was.watch);
-    mover.mean.head<2>() = point.mean;
-    mover.covariance.topRows<2>().setZero();
-    mover.covariance.leftCols<2>().setZero();
-    mover.covariance.topLeftCorner<2, 2>() = point.covariance;
-    kinds_.forget(was.watch);
+    const RelativeGaussian mover = watch_.asMover(was.watched_as, batch.seen, d);
+    watch_.forget(was.watched_as);
     mixed_.erase(landmark);
     particles.removeLandmark(landmark);
     TrackRecord& started = tracks.addTrack(particles.addTarget(mover), {}, batch.now);
@@ -187,8 +142,8 @@ void MoverLife::becomeLandmark(TargetParticles& particles, ObjectCatalogue& trac
     LandmarkFilter landmark;
     landmark.existence = was.life->existence;
     landmark.first_seen = was.first_seen;
-    addLandmark(particles, {{batch.now, detectionOf(batch, d), sensorOf(batch, d).pose}}, landmark, was.life->moving,
-                batch.now);
+    addLandmark(particles, {{batch.now, batch.seen.detection(d), batch.seen.sensorOf(d).pose}}, landmark,
+                was.life->moving, batch.now);
 }
 
 LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
@@ -201,51 +156,30 @@ LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<
 
 std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
                                       std::vector<Innovation>& innovations) {
-    struct Aside {
-        double nis;
-        LandmarkId landmark;
-        int detection;
-        bool operator<(const Aside& other) const {
-            return std::tie(nis, landmark, detection) < std::tie(other.nis, other.landmark, other.detection);
-        }
-    };
-    std::vector<Aside> all;
+    std::vector<LandmarkId> missed;
+    std::vector<BlockId> watched_as;
     for (auto at = mixed_.begin(); at != mixed_.end();) {
         const auto& [id, landmark] = *at;
         const LandmarkFilter* record = particles.particles().best().find(id);
         if (!record) {  // particles have let go of it
-            kinds_.forget(landmark.watch);
+            watch_.forget(landmark.watched_as);
             at = mixed_.erase(at);
             continue;
         }
-        if (landmark.last_seen != batch.now && surelySeenByAny(batch, particles, *record))
-            for (const int d : batch.unexplained) {
-                if (detectionOf(batch, d).kind != ObjectKind::unknown) continue;
-                const auto nis = kinds_.nisAsMover(landmark.watch, detectionOf(batch, d), sensorOf(batch, d).pose);
-                if (nis && *nis <= pair_gate_) all.push_back({*nis, id, d});
-            }
+        if (landmark.last_seen != batch.now && surelySeenByAny(batch, particles, *record)) {
+            missed.push_back(id);
+            watched_as.push_back(landmark.watched_as);
+        }
         ++at;
     }
-    std::sort(all.begin(), all.end());
 
     std::vector<int> unexplained = batch.unexplained;
-    std::set<LandmarkId> looked;
-    std::set<int> taken;
-    for (const Aside& aside : all) {
-        if (looked.count(aside.landmark) > 0 || taken.count(aside.detection) > 0) continue;
-        looked.insert(aside.landmark);
-        taken.insert(aside.detection);
-        MixedLandmark& landmark = mixed_.at(aside.landmark);
-        const RangeBearingSensor& sensor = sensorOf(batch, aside.detection);
-        landmark.moving = kinds_.lookAside(landmark.watch, detectionOf(batch, aside.detection), sensor.pose,
-                                           parameters_.landmarks.detection_probability,
-                                           unexplainedDensity(parameters_.landmarks, sensor));
-        if (landmark.moving < parameters_.decide_probability) continue;
-        const TrackId track = becomeMover(particles, tracks, aside.landmark, batch, aside.detection);
-        Innovation& innovation = innovations[static_cast<std::size_t>(aside.detection)];
-        innovation.kind = ObjectKind::mover;
-        innovation.track = track;
-        innovation.outcome = Outcome::initiated;
+    for (const ObjectWatch::Aside& aside : watch_.lookAside(watched_as, batch.seen, batch.unexplained)) {
+        const LandmarkId landmark = missed[aside.object];
+        mixed_.at(landmark).moving = aside.moving;
+        if (!watch_.moves(aside.moving)) continue;
+        const TrackId track = becomeMover(particles, tracks, landmark, batch, aside.detection);
+        tellStarted(innovations[static_cast<std::size_t>(aside.detection)], track);
         unexplained.erase(std::find(unexplained.begin(), unexplained.end(), aside.detection));
     }
     return unexplained;
@@ -258,27 +192,19 @@ void MoverLife::admit(TargetParticles& particles, ObjectCatalogue& tracks, const
                       Innovation& innovation) {
     const TentativeObject& object = confirmed.object;
     const double moving = object.track.movingProbability();
-    innovation.outcome = Outcome::initiated;
     if (!confirmed.moving) {
-        innovation.kind = ObjectKind::landmark;
         LandmarkFilter landmark;
         landmark.existence = object.existence;
         landmark.seen = object.seen;
         landmark.first_seen = object.first_seen;
-        innovation.landmark = addLandmark(particles, object.sights, landmark, moving, now);
+        tellStarted(innovation, addLandmark(particles, object.sights, landmark, moving, now));
         return;
     }
-    RelativeGaussian mover = object.track.asMover();
-    if (parameters_.birth == TrackBirth::one_point)
-        mover = moverAt({mover.mean.head<2>(), mover.covariance.topLeftCorner<2, 2>()}, velocity_std_,
-                        acceleration_std_);
-    const BlockId block = particles.addTarget(mover);
-    const TargetBelief born = particles.target(block);
-    TrackRecord& track = tracks.addTrack(block, {}, now, lost_.continuedBy(born.mean, born.covariance));
+    const BlockId block = particles.addTarget(watch_.firstMover(object));
+    TrackRecord& track = tracks.addTrack(block, {}, now, watch_.continuedBy(particles.target(block)));
     track.first_seen = object.first_seen;
     tracks.giveLife(track, {object.kind, object.existence, moving, now});
-    innovation.kind = ObjectKind::mover;
-    innovation.track = track.id;
+    tellStarted(innovation, track.id);
 }
 
 }  // namespace slamot

@@ -39,9 +39,7 @@ void TargetParticleFilter::predict(const OdometryIncrement& odometry) {
 }
 
 void TargetParticleFilter::endUnseenTracks(Stamp now) {
-    for (std::size_t i = tracks_.tracks().size(); i-- > 0;) {
-        const TrackRecord track = tracks_.tracks()[i];
-        if (secondsBetween(track.last_seen, now) <= parameters_.max_unseen) continue;
+    for (const TrackRecord& track : tracks_.tracksUnseenFor(parameters_.max_unseen, now)) {
         if (track.life) life_.lost(particles_, track, now);
         particles_.removeTarget(track.block);
         tracks_.removeTrack(track.id);
@@ -88,7 +86,7 @@ void TargetParticleFilter::updateByMovers(MoverBatch& batch, std::vector<Innovat
         const auto number = static_cast<std::size_t>(d);
         const TrackRecord& track = *tracks_.trackOf(block);
         const RangeBearingDetection& seen = found.merged[number];
-        const RangeBearingSensor& sensor = batch.seen.sensors[static_cast<std::size_t>(seen.sensor)];
+        const RangeBearingSensor& sensor = batch.seen.sensorOf(seen);
         Innovation& innovation = innovations[number];
         innovation.kind = ObjectKind::mover;
         innovation.track = track.id;
@@ -167,13 +165,12 @@ BatchAssociation TargetParticleFilter::pairNameless(const MergedTargets& view, M
 
 void TargetParticleFilter::startNamed(const MoverBatch& batch, std::vector<Innovation>& innovations) {
     for (Innovation& innovation : innovations) {
-        const RangeBearingDetection& detection =
-            batch.seen.detections[static_cast<std::size_t>(innovation.detection)];
+        const RangeBearingDetection& detection = batch.seen.detection(innovation.detection);
         if (innovation.outcome != Outcome::initiated || detection.kind != ObjectKind::mover) continue;
         innovation.outcome = Outcome::ignored;
         // Known by now: the same new mover twice in one batch, and the first has started it.
         if (tracks_.trackBySource(detection.source)) continue;
-        const Pose2& sensor = batch.seen.sensors[static_cast<std::size_t>(detection.sensor)].pose;
+        const Pose2& sensor = batch.seen.sensorOf(detection).pose;
         const BlockId block =
             particles_.addTarget(moverAt(firstSight(detection, sensor, consistency_),
                                          parameters_.velocity_std, parameters_.acceleration_std));
@@ -188,22 +185,8 @@ void TargetParticleFilter::startNamed(const MoverBatch& batch, std::vector<Innov
 std::vector<TrackEstimate> TargetParticleFilter::tracks() const {
     std::vector<TrackEstimate> out;
     const bool has_modes = !modeNames().empty();
-    for (const TrackRecord& track : tracks_.tracks()) {
-        const TargetBelief belief = particles_.target(track.block);
-        TrackEstimate estimate;
-        estimate.id = track.id;
-        estimate.source = track.source;
-        estimate.mean = belief.mean;
-        estimate.covariance = belief.covariance;
-        if (track.life) {
-            estimate.existence = track.life->existence.probability();
-            estimate.moving = track.life->moving;
-        }
-        if (has_modes)
-            estimate.mode_probabilities.assign(belief.mode_probabilities.begin(),
-                                               belief.mode_probabilities.end());
-        out.push_back(std::move(estimate));
-    }
+    for (const TrackRecord& track : tracks_.tracks())
+        out.push_back(estimateOf(track, particles_.target(track.block), has_modes));
     return out;
 }
 

@@ -45,10 +45,19 @@ struct RangeBearingDetection {
 struct RangeBearingSet {
     std::vector<RangeBearingSensor> sensors;
     std::vector<RangeBearingDetection> detections;
+
+    const RangeBearingDetection& detection(int number) const {
+        return detections[static_cast<std::size_t>(number)];
+    }
+    const RangeBearingSensor& sensorOf(const RangeBearingDetection& detection) const {
+        return sensors[static_cast<std::size_t>(detection.sensor)];
+    }
+    /// Of the detection of that number.
+    const RangeBearingSensor& sensorOf(int number) const { return sensorOf(detection(number)); }
 };
 
-/// All detections of one stamp: one batch, whatever number of sensors they came from. An empty one is legal: the
-/// sensors looked and saw nothing. Range-only or 3-D sets would be further alternatives of the variant.
+/// All detections of one stamp: one batch, whatever number of sensors they came from. An empty one is legal:
+/// the sensors looked and saw nothing. Range-only or 3-D sets would be further alternatives of the variant.
 struct DetectionSet {
     Stamp stamp;
     std::variant<RangeBearingSet> measurements;

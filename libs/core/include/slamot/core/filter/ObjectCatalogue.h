@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "slamot/core/association/LandmarkIndex.h"
+#include "slamot/core/data/Estimate.h"
 #include "slamot/core/data/Identities.h"
 #include "slamot/core/data/Stamp.h"
 #include "slamot/core/objects/Existence.h"
 
 namespace slamot {
+
+struct TargetBelief;
 
 /// The life of an object to which the log gives no identity.
 struct ObjectLifeRecord {
@@ -20,7 +23,8 @@ struct ObjectLifeRecord {
     Stamp looked;   ///< when existence was judged last
 };
 
-/// Part of the time that nothing hides it, if it is there. Never so small that a detection could not be its own.
+/// Part of the time that nothing hides it, if it is there. Never so small that a detection could not be its
+/// own.
 double visiblePart(const std::optional<ObjectLifeRecord>& life);
 
 struct LandmarkRecord {
@@ -39,6 +43,9 @@ struct TrackRecord {
     Stamp first_seen, last_seen;
     std::optional<ObjectLifeRecord> life;
 };
+
+/// What is told of a track; without mode probabilities where it has one mode.
+TrackEstimate estimateOf(const TrackRecord& track, const TargetBelief& belief, bool tell_modes);
 
 /// Landmarks and live tracks; ids count up and are never given to another object.
 class ObjectCatalogue {
@@ -68,6 +75,8 @@ class ObjectCatalogue {
     const std::vector<LandmarkRecord>& landmarks() const { return landmarks_; }
     const std::vector<TrackRecord>& tracks() const { return tracks_; }
     std::vector<TrackRecord>& tracks() { return tracks_; }
+    /// Those not seen for longer than that [s], the latest first.
+    std::vector<TrackRecord> tracksUnseenFor(double longest, Stamp now) const;
     /// Where landmarks are, as far as `place` was told.
     const LandmarkIndex& positions() const { return positions_; }
     /// Whether any object has a life of its own.

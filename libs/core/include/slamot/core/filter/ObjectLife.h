@@ -3,38 +3,13 @@
 // or to stand still, let go, and known again.
 #include "slamot/core/data/Estimate.h"
 #include "slamot/core/estimation/GatheredView.h"
-#include "slamot/core/filter/KindWatch.h"
 #include "slamot/core/filter/ModalBelief.h"
 #include "slamot/core/filter/ObjectAssociation.h"
+#include "slamot/core/filter/ObjectWatch.h"
 #include "slamot/core/filter/PoseMemory.h"
 #include "slamot/core/objects/DuplicateWatch.h"
-#include "slamot/core/objects/LostTracks.h"
-#include "slamot/core/objects/TentativeObjects.h"
 
 namespace slamot {
-
-enum class TrackBirth {
-    one_point,  ///< nothing is known of a new mover's velocity
-    two_point   ///< it has the velocity that its first detections show
-};
-
-struct ObjectLifeParameters {
-    LifeParameters landmarks, movers;
-    double merge_probability = 0.99;  ///< of two landmarks being one, at which they are merged
-
-    TrackBirth birth = TrackBirth::two_point;
-    double reidentify_within = 10;         ///< [s] after a track was lost
-    double reidentify_probability = 0.99;  ///< gate of the lost track's prediction
-
-    MotionChange change;
-    double decide_probability = 0.9;  ///< P(moving) beyond which an object of unknown kind is a mover
-};
-
-/// Adds to the tables of landmarks and of movers.
-void describeLandmarks(ObjectLifeParameters& parameters, ParameterTable& landmarks);
-void describeMovers(ObjectLifeParameters& parameters, ParameterTable& movers);
-/// The table `[name.mixed]`.
-ParameterTable describeMixed(ObjectLifeParameters& parameters, const std::string& name);
 
 class ObjectLife {
   public:
@@ -44,16 +19,16 @@ class ObjectLife {
 
     void clear();
     /// Whether there is anything beside the joint state.
-    bool busy() const { return tentative_.size() > 0 || kinds_.watching() || !lost_.empty(); }
+    bool busy() const { return watch_.busy(); }
     /// The robot has moved by `step`.
-    void predict(const RelativeStep& step, const TargetModel& model);
+    void predict(const RelativeStep& step, const TargetModel& model) { watch_.predict(step, model); }
 
     /// After the update with `batch`: what its detections, and those that were missing, say of all objects.
     void follow(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch, Stamp now,
                 std::vector<Innovation>& innovations);
 
     /// Beside the joint state, in the robot's frame.
-    const std::vector<TentativeObject>& tentative() const { return tentative_.objects(); }
+    const std::vector<TentativeObject>& tentative() const { return watch_.tentative(); }
 
     /// A track without identity has ended: it may come back.
     void lost(const ModalState& belief, const TrackRecord& track, Stamp now);
@@ -76,9 +51,9 @@ class ObjectLife {
     void changeKinds(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
                      const Sights& sights, Stamp now);
     TrackId becomeMover(ModalBelief& belief, ObjectCatalogue& objects, const LandmarkRecord& landmark,
-                        const RangeBearingDetection& detection, const Pose2& sensor, Stamp now);
+                        const AssociatedBatch& batch, int detection, Stamp now);
     void becomeLandmark(ModalBelief& belief, ObjectCatalogue& objects, const TrackRecord& track,
-                        const RangeBearingDetection& detection, const Pose2& sensor, Stamp now);
+                        const AssociatedBatch& batch, int detection, Stamp now);
     /// A landmark that starts to move leaves its gate: what was detected where it would be then. Gives the
     /// detections that are still unexplained.
     std::vector<int> findMoved(ModalBelief& belief, ObjectCatalogue& objects, const AssociatedBatch& batch,
@@ -95,13 +70,10 @@ class ObjectLife {
 
     ObjectLifeParameters parameters_;
     Consistency consistency_;
-    double velocity_std_, acceleration_std_;
     double pair_gate_;
-    TentativeObjects tentative_;
+    ObjectWatch watch_;
     PoseMemory poses_;
-    KindWatch kinds_;
     DuplicateWatch duplicates_;
-    LostTracks lost_;
     Stamp last_scan_;  ///< anything before the first
 };
 

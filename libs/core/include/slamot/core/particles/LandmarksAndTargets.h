@@ -60,7 +60,7 @@ class LandmarksAndTargets {
         Vector3 pose;
     };
     void remember(const Vector3& pose, const ParticleScan& scan);
-    void findRivals(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
+    void findSightsOfMovers(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan, Work& work) const;
 
     LandmarkFilters landmarks_;
     std::vector<TargetFilter> targets_;

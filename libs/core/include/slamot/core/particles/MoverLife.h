@@ -6,11 +6,7 @@
 #include <vector>
 
 #include "slamot/core/data/Estimate.h"
-#include "slamot/core/filter/KindWatch.h"
-#include "slamot/core/filter/ObjectCatalogue.h"
-#include "slamot/core/filter/ObjectLife.h"
-#include "slamot/core/objects/LostTracks.h"
-#include "slamot/core/objects/TentativeObjects.h"
+#include "slamot/core/filter/ObjectWatch.h"
 #include "slamot/core/particles/TargetParticles.h"
 
 namespace slamot {
@@ -35,8 +31,8 @@ class MoverLife {
 
     void clear();
     /// Whether there is anything beside the particles.
-    bool busy() const { return tentative_.size() > 0 || kinds_.watching() || !lost_.empty(); }
-    void predict(const RelativeStep& step, const TargetModel& model);
+    bool busy() const { return watch_.busy(); }
+    void predict(const RelativeStep& step, const TargetModel& model) { watch_.predict(step, model); }
 
     /// After the update with `batch`: what its detections, and those that were missing, say of all objects.
     void follow(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
@@ -50,7 +46,7 @@ class MoverLife {
   private:
     /// A landmark that may start to move.
     struct MixedLandmark {
-        BlockId watch;  ///< its number in kinds_
+        BlockId watched_as;
         double moving;
         Stamp last_seen;
     };
@@ -59,7 +55,6 @@ class MoverLife {
     void changeKinds(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch);
     std::vector<int> findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
                                std::vector<Innovation>& innovations);
-    RelativeGaussian sightAlone(const MoverBatch& batch, int detection) const;
     TrackId becomeMover(TargetParticles& particles, ObjectCatalogue& tracks, LandmarkId landmark,
                         const MoverBatch& batch, int detection);
     void becomeLandmark(TargetParticles& particles, ObjectCatalogue& tracks, const TrackRecord& track,
@@ -73,11 +68,8 @@ class MoverLife {
 
     ObjectLifeParameters parameters_;
     Consistency consistency_;
-    double velocity_std_, acceleration_std_;
     double pair_gate_;
-    TentativeObjects tentative_;
-    KindWatch kinds_;
-    LostTracks lost_;
+    ObjectWatch watch_;
     std::map<LandmarkId, MixedLandmark> mixed_;
     BlockId last_watch_ = robot_block;
 };

@@ -5,7 +5,7 @@
 
 #include "slamot/core/association/BatchAssociation.h"
 #include "slamot/core/estimation/OutlierGate.h"
-#include "slamot/core/filter/ObjectLife.h"
+#include "slamot/core/filter/ObjectLifeParameters.h"
 #include "slamot/core/particles/LandmarksAndTargets.h"
 #include "slamot/core/particles/ParticleCloud.h"
 
