@@ -6,7 +6,7 @@ trap 'echo "demo: failed at: $BASH_COMMAND" >&2' ERR
 
 echo "== 1/4 packages"
 scripts/install_packages.sh build run
-echo "== 2/4 build (build/release; a few minutes the first time)"
+echo "== 2/4 build (build/release; hundreds of files the first time)"
 cmake --preset release -DSLAMOT_BUILD_TESTS=OFF >/dev/null
 cmake --build --preset release
 slamot=build/release/bin/slamot
