@@ -302,6 +302,42 @@ TEST(BernoulliMapTest, FeaturesThatAreOneAreMerged) {
     }
 }
 
+// What is merged has the number of the older, the sights of both and a place between; what may not be merged
+// is kept longer.
+TEST(BernoulliMapTest, MergingIsWhatMakesThemOne) {
+    int scans[2] = {0, 0};
+    for (const bool merges : {true, false}) {
+        BernoulliMapParameters p = parameters();
+        p.merge_probability = merges ? 0.99 : 1 - 1e-15;
+        Particle particle(p);
+        for (int k = 0; k < 8; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5.15, 0})}));
+        const std::vector<BernoulliFeature> before = particle.all();
+        ASSERT_EQ(confirmed(particle), 2);
+        int& k = scans[merges];
+        while (confirmed(particle) == 2 && k < 60) particle.take(scanAt(8 + k++, {nameless({5.08, 0})}));
+        if (!merges) continue;
+        const BernoulliFeature* kept = particle.map.find(before[0].id);
+        ASSERT_TRUE(kept);
+        EXPECT_GT(kept->seen, 16);
+        EXPECT_NEAR(kept->point.mean.x(), 5.08, 0.03);
+        EXPECT_FALSE(particle.map.find(before[1].id));
+    }
+    EXPECT_LT(scans[1], scans[0]);
+}
+
+// The second sensor does not meet what was merged in the first one's turn.
+TEST(BernoulliMapTest, WhatIsMergedIsMergedOnce) {
+    Particle particle;
+    std::int64_t seen = 0;
+    for (int k = 0; k < 8; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5.15, 0})}));
+    for (int k = 8; confirmed(particle) == 2 && k < 60; ++k) {
+        seen = particle.all()[0].seen + particle.all()[1].seen;
+        particle.take(test::scanOfTwo(k, {nameless({5.08, 0}), nameless({5.08, 0})}));
+    }
+    ASSERT_EQ(confirmed(particle), 1);
+    EXPECT_LE(particle.all()[0].seen, seen + 4);
+}
+
 // Two features 0.4 m apart, four deviations of what a detection says, stay two.
 TEST(BernoulliMapTest, FeaturesThatAreTwoStayTwo) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -363,22 +399,30 @@ TEST(BernoulliMapTest, AScanCopiesNoPageThatIsOutOfReach) {
     EXPECT_EQ(particle.map.features().bytes()[0] * 5, particle.map.features().bytes()[1] * 2);
 }
 
-// A pair beyond doubt moves the pose, one in doubt does not.
+// A detection half-way between two features is of each with a probability of half at most.
 TEST(BernoulliMapTest, PairsInDoubtDoNotRefineThePose) {
     const PoseBelief belief{Vector3::Zero(), 0.1 * Matrix3::Identity()};
-    Particle particle;
-    bool refines = false;
-    for (int k = 0; k < 4; ++k) {
-        const ParticleScan scan = particle.scans.scan(scanAt(k, {nameless({5, 0})}));
-        particle.map.pairUp(particle.settings, belief, scan, particle.work, particle.records);
-        RefinedPose refined(belief);
-        particle.map.refine(particle.settings, scan, particle.work, refined);
-        EXPECT_EQ(!(refined.belief().factor == belief.factor), !particle.work.pairs.empty());
-        EXPECT_GE(!particle.work.pairs.empty(), refines);
-        refines = !particle.work.pairs.empty();
-        particle.map.update(particle.settings, Vector3::Zero(), true, scan, particle.work, particle.records);
+    for (const double pose_probability : {0.3, 0.9}) {
+        BernoulliMapParameters p = parameters();
+        p.pose_probability = pose_probability;
+        Particle particle(p);
+        for (int k = 0; k < 8; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5, 0.3})}));
+        const auto refined = [&](const Vector2& point) {
+            const ParticleScan scan = particle.scans.scan(scanAt(8, {nameless(point)}));
+            particle.map.pairUp(particle.settings, belief, scan, particle.work, particle.records);
+            RefinedPose out(belief);
+            particle.map.refine(particle.settings, scan, particle.work, out);
+            return !(out.belief().factor == belief.factor);
+        };
+        EXPECT_EQ(refined({5, 0.15}), pose_probability < 0.5);
     }
-    EXPECT_TRUE(refines);
+    Particle sure;
+    for (int k = 0; k < 8; ++k) sure.take(scanAt(k, {nameless({5, 0})}));
+    const ParticleScan scan = sure.scans.scan(scanAt(8, {nameless({5, 0})}));
+    sure.map.pairUp(sure.settings, belief, scan, sure.work, sure.records);
+    RefinedPose out(belief);
+    sure.map.refine(sure.settings, scan, sure.work, out);
+    EXPECT_FALSE(out.belief().factor == belief.factor);
 }
 
 }  // namespace bernoulli_map_test

@@ -173,6 +173,28 @@ TEST(LandmarkFiltersTest, SensorsHaveTheirTurns) {
     EXPECT_LT(seen_by_one.all()[0].existence.probability(), seen_by_both.all()[0].existence.probability());
 }
 
+// Of two detections of the second sensor near what the first has started the nearer is its; the other starts
+// another.
+TEST(LandmarkFiltersTest, ASensorDetectsOnceWhatAnotherHasJustStarted) {
+    for (const bool nearer_first : {true, false}) {
+        DetectionSet set = scanAt(0, {nameless({5, 0})});
+        auto& both = std::get<RangeBearingSet>(set.measurements);
+        both.sensors.push_back(both.sensors.front());
+        both.sensors.back().label = "other";
+        for (const double x : {nearer_first ? 5.05 : 5.2, nearer_first ? 5.2 : 5.05}) {
+            both.detections.push_back(nameless({x, 0}));
+            both.detections.back().sensor = 1;
+        }
+        Particle particle;
+        particle.take(set);
+        ASSERT_EQ(particle.all().size(), 2u);
+        EXPECT_EQ(particle.all()[0].seen, 2);
+        EXPECT_NEAR(particle.all()[0].point.mean.x(), 5.025, 1e-3);
+        EXPECT_EQ(particle.all()[1].seen, 1);
+        EXPECT_NEAR(particle.all()[1].point.mean.x(), 5.2, 1e-9);
+    }
+}
+
 TEST(LandmarkFiltersTest, AScanCopiesNoPageThatIsOutOfReach) {
     Particle particle;
     for (int k = 0; k < 64; ++k) {

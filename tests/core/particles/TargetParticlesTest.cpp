@@ -127,18 +127,35 @@ TEST(TargetParticlesTest, MoversWeighParticlesWhereTheyShall) {
     }
 }
 
-// A detection that may be of something else says no more against a particle than that.
+// A detection that may be of something else: 1 + P_D v (N / c - 1). It says no more against a particle than a
+// miss.
 TEST(TargetParticlesTest, WhatMayNotBeTheMoversWeighsLittle) {
-    TargetParticles particles = particlesOf(2);
-    particles.start({{}, Matrix3(Vector3(1, 1, 1).asDiagonal())}, 5);
-    const BlockId target = particles.addTarget(moverAtPoint({4, 3}));
-    // Expected at (4, 3) of its own frame by each particle; seen 5 m behind.
-    TargetDetection detection = detectionOf(target, seen({}, {8, 6}, mover, 1));
-    detection.visible = 0.25;
-    detection.detection_probability = 0.9;
-    detection.unexplained = 0.01;
-    particles.updateByTargets({detection});
-    for (int i = 0; i < 2; ++i) EXPECT_NEAR(particles.particles().cloud().weights()[i], 0.5, 1e-9);
+    for (const Vector2& point : {Vector2(4.1, 2.95), Vector2(8, 6)}) {
+        for (const double visible : {0.25, 1.0}) {
+            TargetParticles particles = particlesOf(20);
+            particles.start({}, 5);
+            const BlockId target = particles.addTarget(moverAtPoint({4, 3}));
+            particles.predict(odometry(0, 0.1, {1, 0, 0.5}));
+            TargetDetection detection = detectionOf(target, seen({1, 0, 0.5}, point, mover, -1));
+            detection.named = false;
+            detection.visible = visible;
+            detection.detection_probability = 0.9;
+            detection.unexplained = 0.01;
+            std::vector<double> factors;
+            double sum = 0;
+            for (int i = 0; i < 20; ++i) {
+                TargetFilter filter = particles.particles().map(i).targets().at(0);
+                const double log_N = filter.update(
+                    TargetSettings(), particles.particles().cloud().pose(i).mean, detection.sight);
+                factors.push_back(1 + 0.9 * visible * (std::exp(log_N) / 0.01 - 1));
+                sum += factors.back();
+            }
+            particles.updateByTargets({detection});
+            for (int i = 0; i < 20; ++i)
+                EXPECT_NEAR(particles.particles().cloud().weights()[i],
+                            factors[static_cast<std::size_t>(i)] / sum, 1e-12);
+        }
+    }
 }
 
 // Sights of what turns out to be a landmark are taken in where the path has them made.
@@ -152,7 +169,7 @@ TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
     for (int k = 0; k < 4; ++k) {
         const auto& sight = sights[static_cast<std::size_t>(k)];
         particles.updateByLandmarks(scanAt(k, {sight}), true);
-        tentative.push_back({Stamp::fromSeconds(k), sight, {}});
+        tentative.push_back({Stamp::fromSeconds(k), sight, {}, 0.01});
         EXPECT_EQ(particles.particles().landmarkCount(), 0);
         ASSERT_EQ(particles.landmarkVerdicts().size(), 1u);
         EXPECT_TRUE(particles.landmarkVerdicts()[0].may_be_new);
@@ -180,12 +197,46 @@ TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
     EXPECT_EQ(particles.particles().landmarkCount(), 0);
 }
 
+// Of two particles that see a second sight from where they are, each is weighed by it, and where it lies
+// outside the gate by what else it may have been.
+TEST(TargetParticlesTest, SightsOfANewLandmarkWeighParticles) {
+    TargetParticles particles = particlesOf(30);
+    particles.start({}, 5);
+    const RangeBearingDetection first = seen({}, {5, 0}, unknown, -1);
+    particles.updateByLandmarks(scanAt(0, {first}), true);
+    particles.predict(odometry(0, 1, {1, 0, 0.5}));
+    const RangeBearingDetection second = seen({1, 0, 0.5}, {5, 0}, unknown, -1);
+    particles.updateByLandmarks(scanAt(1, {second}), true);
+    std::vector<double> factors;
+    double sum = 0;
+    int outside = 0;
+    constexpr double gate = 1, other = 0.3;
+    for (int i = 0; i < 30; ++i) {
+        const SensorPlace here = placeOf(particles.particles().cloud().pose(i).mean, {});
+        const GaussianPoint point =
+            firstSight(placeOf(Vector3::Zero(), {}), first.z(), first.covariance, GaussianTransform::linear);
+        const PointInnovation innovation(sightOf(point, here, GaussianTransform::linear), second.z(),
+                                         second.covariance);
+        outside += innovation.nis > gate;
+        factors.push_back(innovation.nis > gate ? other : std::exp(innovation.logLikelihood()));
+        sum += factors.back();
+    }
+    ASSERT_GT(outside, 2);
+    ASSERT_LT(outside, 28);
+    particles.addLandmark(
+        {{Stamp::fromSeconds(0), first, {}, other}, {Stamp::fromSeconds(1), second, {}, other}}, gate,
+        LandmarkFilter());
+    for (int i = 0; i < 30; ++i)
+        EXPECT_NEAR(particles.particles().cloud().weights()[i], factors[static_cast<std::size_t>(i)] / sum,
+                    1e-9);
+}
+
 TEST(TargetParticlesTest, ASightThatIsLikelierOfAMoverIsLeftToIt) {
     TargetParticles particles = particlesOf(1);
     particles.start({}, 5);
     particles.updateByLandmarks(scanAt(0, {seen({}, {5, 0}, unknown, -1)}), true);
-    const LandmarkId id = particles.addLandmark({{Stamp::fromSeconds(0), seen({}, {5, 0}, unknown, -1), {}}},
-                                                13.8, LandmarkFilter());
+    const LandmarkId id = particles.addLandmark(
+        {{Stamp::fromSeconds(0), seen({}, {5, 0}, unknown, -1), {}, 0.01}}, 13.8, LandmarkFilter());
     particles.addTarget(moverAtPoint({5, 0.4}));
     particles.updateByLandmarks(scanAt(1, {seen({}, {5, 0.38}, unknown, -1)}), true);
     EXPECT_FALSE(particles.landmarkVerdicts().at(0).explained);

@@ -131,7 +131,8 @@ void TentativeObjects::look(int sensor_number, const Batch& batch, std::vector<i
             lifeOf(object.kind).detection_probability * std::exp(problem.candidate(c).log_likelihood);
         object.existence.detected(density / model.clutter_density[i]);
         object.track.update(batch.seen.detection(detections[i]), sensor.pose);
-        object.keep({batch.now, batch.seen.detection(detections[i]), sensor.pose});
+        object.keep({batch.now, batch.seen.detection(detections[i]), sensor.pose,
+                     unexplainedDensity(lifeOf(object.kind), sensor)});
         object.seen += 1;
         object.last_seen = batch.now;
         is_seen[o] = true;
@@ -150,7 +151,8 @@ bool TentativeObjects::start(int detection, const Batch& batch) {
     const RangeBearingDetection& seen = batch.seen.detection(detection);
     const Existence existence(lifeOf(seen.kind));
     if (!(existence.probability() > 0)) return false;  // no new objects are expected
-    const RelativeGaussian point = firstSight(seen, batch.seen.sensorOf(detection).pose, batch.consistency);
+    const RangeBearingSensor& sensor = batch.seen.sensorOf(detection);
+    const RelativeGaussian point = firstSight(seen, sensor.pose, batch.consistency);
     const auto track = [&] {
         switch (seen.kind) {
             case ObjectKind::landmark:
@@ -168,7 +170,7 @@ bool TentativeObjects::start(int detection, const Batch& batch) {
                         1,
                         batch.now,
                         batch.now,
-                        {{batch.now, seen, batch.seen.sensorOf(detection).pose}}});
+                        {{batch.now, seen, sensor.pose, unexplainedDensity(lifeOf(seen.kind), sensor)}}});
     return true;
 }
 

@@ -49,7 +49,7 @@ void BernoulliMap::findNear(const Settings& settings, const PoseBelief& pose, co
     features_.forEachNear(
         sensor.position(), sensor.reach(), [&](Place place, const BernoulliFeature& feature) {
             // What has a name is known by it alone, and says nothing when it is not named.
-            if (feature.source.valid() || !sensor.mayShow(feature.point)) return;
+            if (feature.source.valid() || !sensor.mayShow(feature.point) || work.isLost(place)) return;
             work.near.push_back(
                 {place, feature.point, feature.existence, 0, sensor.sightOf(feature.point), false});
             Work::Near& near = work.near.back();
@@ -117,6 +117,7 @@ void BernoulliMap::lookAgain(const Settings& settings, const Vector3& pose, cons
 void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                           Work& work, std::vector<SightRecord>& records) const {
     work.pairs.clear();
+    work.lost.clear();
     records.assign(scan.sights.size(), {});
     std::vector<double> best(scan.sights.size(), 0);
     const auto tell = [&](std::size_t s, LandmarkId id, const PointSight& sight) {
@@ -128,7 +129,7 @@ void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, cons
         const ScanSight& sight = scan.sights[s];
         const BernoulliFeature* feature = sight.known_as.valid() ? find(sight.known_as) : nullptr;
         if (!feature) continue;
-        work.pairs.push_back({static_cast<int>(s), 1.0, feature->point});
+        work.pairs.push_back({static_cast<int>(s), feature->point});
         tell(s, feature->id, sightOf(feature->point, pose, scan.sensorOf(sight), settings.transform));
     }
     for (int view = 0; view < static_cast<int>(scan.views.size()); ++view) {
@@ -149,7 +150,7 @@ void BernoulliMap::pairUp(const Settings& settings, const PoseBelief& pose, cons
                 tell(s, features_.at(near.place).id, near.sight);
             }
             if (p >= settings.parameters.pose_probability)
-                work.pairs.push_back({static_cast<int>(s), p, near.point});
+                work.pairs.push_back({static_cast<int>(s), near.point});
         }
     }
 }

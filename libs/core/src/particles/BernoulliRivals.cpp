@@ -28,10 +28,12 @@ void BernoulliMap::findRivals(const Settings& settings, const AssociationProblem
             const auto placeOf = [&](int k) {
                 return work.near[static_cast<std::size_t>(problem.candidate(k).object)].place;
             };
-            const BernoulliFeature &older = features_.at(placeOf(oldest)), &younger = features_.at(placeOf(c));
+            const BernoulliFeature &older = features_.at(placeOf(oldest)),
+                                   &younger = features_.at(placeOf(c));
             if (younger.source.valid() || (younger.rival.valid() && find(younger.rival))) continue;
+            const LandmarkId rival = older.id;  // writing may move what is read
             BernoulliFeature& written = features_.write(placeOf(c));
-            written.rival = older.id;
+            written.rival = rival;
             written.same = 0;
         }
     }
@@ -45,12 +47,9 @@ void BernoulliMap::weighRivals(const Settings& settings, const Vector3& pose, co
         const auto older = std::find_if(work.near.begin(), work.near.end(), [&](const Work::Near& near) {
             return features_.at(near.place).id == rival;
         });
-        const auto isGone = [&](Place place) {
-            return std::any_of(work.lost.begin(), work.lost.end(), [&](Place gone) { return gone == place; });
-        };
-        if (older == work.near.end() || isGone(older->place)) continue;
-        const double look = logSame(settings, pose, scan, marginals, static_cast<int>(older - work.near.begin()),
-                                    static_cast<int>(n), work);
+        if (older == work.near.end() || work.isLost(older->place)) continue;
+        const double look = logSame(settings, pose, scan, marginals,
+                                    static_cast<int>(older - work.near.begin()), static_cast<int>(n), work);
         if (look == 0) continue;
         BernoulliFeature& younger = features_.write(work.near[n].place);
         younger.same += std::clamp(look, -most_of_a_scan, most_of_a_scan);
@@ -61,7 +60,8 @@ void BernoulliMap::weighRivals(const Settings& settings, const Vector3& pose, co
 }
 
 double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, const ParticleScan& scan,
-                             const AssociationMarginals& marginals, int older, int younger, Work& work) const {
+                             const AssociationMarginals& marginals, int older, int younger,
+                             Work& work) const {
     const Work::Near& a = work.near[static_cast<std::size_t>(older)];
     const Work::Near& b = work.near[static_cast<std::size_t>(younger)];
     const SensorPlace sensor = placeOf(pose, scan.views[static_cast<std::size_t>(work.view)].sensor.pose);

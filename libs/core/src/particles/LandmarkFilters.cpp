@@ -199,19 +199,7 @@ double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bo
         log_likelihood += detected(settings, work.expected[s], sight, scan.now, near.place);
     }
     if (scan.nameless) log_likelihood += missed(settings, scan, work);
-    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
-        const ScanSight& sight = scan.sights[s];
-        if (!work.may_start[s]) continue;
-        records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
-        Place place;
-        if (!sight.named() && startedByAnotherSensor(settings, scan, work, s, place)) {
-            records[s].landmark = landmarks_.at(place).id;
-            log_likelihood += detected(settings, work.expected[s], sight, scan.now, place);
-            continue;
-        }
-        start(settings, work.placeOf(sight), sight, scan.now);
-        records[s].landmark = sight.birth;
-    }
+    log_likelihood += startNew(settings, scan, work, records);
     if (scan.nameless) letGo(settings, scan.now, work);
     return log_likelihood;
 }
@@ -235,18 +223,6 @@ double LandmarkFilters::detected(const Settings& settings, const PointSight& exp
     const double visible = landmark.existence.visibility();
     landmark.existence.detected(ratio);
     return std::log(visible * ratio + 1 - visible * life.detection_probability);
-}
-
-bool LandmarkFilters::startedByAnotherSensor(const Settings& settings, const ParticleScan& scan, Work& work,
-                                             std::size_t s, Place& place) const {
-    const ScanSight& sight = scan.sights[s];
-    for (const ScanSight& other : scan.sights) {
-        if (other.view == sight.view) return false;  // sights are view after view
-        if (other.named() || !landmarks_.locate(other.birth, place)) continue;
-        work.expected[s] = sightOf(landmarks_.at(place).point, work.placeOf(sight), settings.transform);
-        if (PointInnovation(work.expected[s], sight.z, sight.R).nis <= settings.gate) return true;
-    }
-    return false;
 }
 
 double LandmarkFilters::missed(const Settings& settings, const ParticleScan& scan, Work& work) {
@@ -280,6 +256,55 @@ double LandmarkFilters::missed(const Settings& settings, const ParticleScan& sca
 
 // --- what comes and goes
 // ---------------------------------------------------------------------------------------------------
+
+double LandmarkFilters::startNew(const Settings& settings, const ParticleScan& scan, Work& work,
+                                 std::vector<SightRecord>& records) {
+    double log_likelihood = 0;
+    int view = -1;
+    work.begun.assign(scan.sights.size(), {});
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.view != view) pairWithBegun(settings, scan, view = sight.view, work);
+        if (!work.may_start[s]) continue;
+        records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
+        records[s].landmark = work.begun[s].valid() ? work.begun[s] : sight.birth;
+        Place place;
+        if (work.begun[s].valid() && landmarks_.locate(work.begun[s], place)) {
+            const PointSight expected =
+                sightOf(landmarks_.at(place).point, work.placeOf(sight), settings.transform);
+            log_likelihood += detected(settings, expected, sight, scan.now, place);
+        } else {
+            start(settings, work.placeOf(sight), sight, scan.now);
+        }
+    }
+    return log_likelihood;
+}
+
+void LandmarkFilters::pairWithBegun(const Settings& settings, const ParticleScan& scan, int view,
+                                    Work& work) const {
+    std::vector<const LandmarkFilter*> begun;
+    for (const ScanSight& sight : scan.sights)
+        if (sight.view < view && !sight.named())
+            if (const LandmarkFilter* landmark = landmarks_.find(sight.birth)) begun.push_back(landmark);
+    if (begun.empty()) return;
+    work.candidates.clear();
+    for (std::size_t s = 0; s < scan.sights.size(); ++s) {
+        const ScanSight& sight = scan.sights[s];
+        if (sight.view != view || sight.named() || !work.may_start[s]) continue;
+        for (std::size_t n = 0; n < begun.size(); ++n) {
+            const PointSight expected = sightOf(begun[n]->point, work.placeOf(sight), settings.transform);
+            const double nis = PointInnovation(expected, sight.z, sight.R).nis;
+            if (nis <= settings.gate)
+                work.candidates.push_back({static_cast<int>(s), static_cast<int>(n), nis, -0.5 * nis});
+        }
+    }
+    const AssociationProblem problem(static_cast<int>(scan.sights.size()), static_cast<int>(begun.size()),
+                                     work.candidates);
+    const Pairing pairing = nearestNeighbour(problem);
+    for (std::size_t s = 0; s < scan.sights.size(); ++s)
+        if (const int c = pairing.of(static_cast<int>(s)); c >= 0)
+            work.begun[s] = begun[static_cast<std::size_t>(problem.candidate(c).object)]->id;
+}
 
 void LandmarkFilters::start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight,
                             Stamp now) {

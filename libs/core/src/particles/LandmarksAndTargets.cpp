@@ -18,7 +18,7 @@ void LandmarksAndTargets::pairUp(const Settings& settings, const PoseBelief& pos
 }
 
 void LandmarksAndTargets::findSightsOfMovers(const Settings& settings, const PoseBelief& pose,
-                                     const ParticleScan& scan, Work& work) const {
+                                             const ParticleScan& scan, Work& work) const {
     work.of_movers.clear();
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
@@ -64,7 +64,10 @@ GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings,
         }
         const PointSight expected = sightOf(point, place, transform);
         const PointInnovation innovation(expected, sight.detection.z(), sight.detection.covariance);
-        if (innovation.nis > gate) continue;
+        if (innovation.nis > gate) {
+            log_likelihood += std::log(sight.unexplained);
+            continue;
+        }
         slamot::update(point, expected, innovation);
         log_likelihood += innovation.logLikelihood();
     }

@@ -17,14 +17,12 @@ bool surelySeenByAny(const MoverBatch& batch, ObjectKind kind, const MergedTarge
     });
 }
 
-/// The same of a landmark, as the heaviest particle has it.
-bool surelySeenByAny(const MoverBatch& batch, const TargetParticles& particles, const LandmarkFilter& landmark) {
-    const ParticleCloud& cloud = particles.particles().cloud();
-    const PoseBelief& pose = cloud.pose(cloud.weights().best());
+/// The same of a landmark, as one particle has it.
+bool surelySeenByAny(const MoverBatch& batch, const TargetParticles::FoundLandmark& found) {
     const auto& sensors = batch.seen.sensors;
     return std::any_of(sensors.begin(), sensors.end(), [&](const RangeBearingSensor& sensor) {
         if (!reports(sensor, ObjectKind::unknown)) return false;
-        const PointSight sight = sightOf(landmark.point, placeOf(pose.mean, sensor.pose), GaussianTransform::linear);
+        const PointSight sight = sightOf(found.landmark->point, placeOf(found.pose, sensor.pose), GaussianTransform::linear);
         return surelyInView(sensor, {sight.z, sight.covariance});
     });
 }
@@ -80,10 +78,11 @@ void MoverLife::judge(const TargetParticles& particles, ObjectCatalogue& tracks,
         track.life->looked = batch.now;
         const auto in_doubt = std::find(batch.in_doubt.begin(), batch.in_doubt.end(), track.block);
         if (in_doubt != batch.in_doubt.end()) continue;
-        const auto sight = batch.sights.find(track.block);
-        if (sight != batch.sights.end())
+        const auto sights = batch.sights.equal_range(track.block);
+        for (auto sight = sights.first; sight != sights.second; ++sight)
             existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
-        else if (surelySeenByAny(batch, track.life->seen_as, view, track.block, consistency_))
+        if (sights.first == sights.second &&
+            surelySeenByAny(batch, track.life->seen_as, view, track.block, consistency_))
             existence.missed(parameters_.movers.detection_probability);
     }
 }
@@ -113,7 +112,7 @@ void MoverLife::changeKinds(TargetParticles& particles, ObjectCatalogue& tracks,
     }
     for (const auto& [block, d] : batch.sights) {
         TrackRecord* track = tracks.trackOf(block);
-        if (!track->life || track->life->seen_as != ObjectKind::unknown) continue;
+        if (!track || !track->life || track->life->seen_as != ObjectKind::unknown) continue;
         track->life->moving = watch_.look(block, track->life->moving, batch.seen, d);
         if (watch_.stands(track->life->moving)) becomeLandmark(particles, tracks, *track, batch, d);
     }
@@ -122,7 +121,7 @@ void MoverLife::changeKinds(TargetParticles& particles, ObjectCatalogue& tracks,
 TrackId MoverLife::becomeMover(TargetParticles& particles, ObjectCatalogue& tracks, LandmarkId landmark,
                                const MoverBatch& batch, int d) {
     const MixedLandmark was = mixed_.at(landmark);
-    const LandmarkFilter* record = particles.particles().best().find(landmark);
+    const LandmarkFilter* record = particles.findMostly(landmark).landmark;
     const Stamp first_seen = record ? record->first_seen : batch.now;
     const Existence existence = record ? record->existence : Existence(parameters_.landmarks);
     const RelativeGaussian mover = watch_.asMover(was.watched_as, batch.seen, d);
@@ -142,8 +141,10 @@ void MoverLife::becomeLandmark(TargetParticles& particles, ObjectCatalogue& trac
     LandmarkFilter landmark;
     landmark.existence = was.life->existence;
     landmark.first_seen = was.first_seen;
-    addLandmark(particles, {{batch.now, batch.seen.detection(d), batch.seen.sensorOf(d).pose}}, landmark,
-                was.life->moving, batch.now);
+    const RangeBearingSensor& sensor = batch.seen.sensorOf(d);
+    addLandmark(particles,
+                {{batch.now, batch.seen.detection(d), sensor.pose, unexplainedDensity(parameters_.landmarks, sensor)}},
+                landmark, was.life->moving, batch.now);
 }
 
 LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<TentativeSight>& sights,
@@ -160,13 +161,14 @@ std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogu
     std::vector<BlockId> watched_as;
     for (auto at = mixed_.begin(); at != mixed_.end();) {
         const auto& [id, landmark] = *at;
-        const LandmarkFilter* record = particles.particles().best().find(id);
-        if (!record) {  // particles have let go of it
+        const TargetParticles::FoundLandmark found = particles.findMostly(id);
+        if (!found.landmark) {  // particles have let go of it
+            particles.removeLandmark(id);
             watch_.forget(landmark.watched_as);
             at = mixed_.erase(at);
             continue;
         }
-        if (landmark.last_seen != batch.now && surelySeenByAny(batch, particles, *record)) {
+        if (landmark.last_seen != batch.now && surelySeenByAny(batch, found)) {
             missed.push_back(id);
             watched_as.push_back(landmark.watched_as);
         }

@@ -100,6 +100,7 @@ void TargetParticleFilter::updateByMovers(MoverBatch& batch, std::vector<Innovat
         tracks_.markSeen(track.id, batch.now);
         TargetDetection detection{block, d, {seen.z(), seen.covariance + more_noise, sensor.pose}};
         if (track.life) {
+            detection.named = false;
             detection.visible = lifeNow(track, batch.now)->existence.visibility();
             detection.detection_probability = parameters_.life.movers.detection_probability;
             detection.unexplained = unexplainedDensity(

@@ -158,10 +158,10 @@ void TargetParticles::updateByTargets(const std::vector<TargetDetection>& detect
             // The mover is detected, or it is not and this is something else (eq. 11: a mover's own factor
             // alone).
             log_likelihoods[static_cast<std::size_t>(i)] +=
-                d.visible < 1
-                    ? std::log(d.detection_probability * d.visible * (std::exp(log_N) / d.unexplained - 1) +
-                               1)
-                    : log_N;
+                d.named
+                    ? log_N
+                    : std::log(d.detection_probability * d.visible * (std::exp(log_N) / d.unexplained - 1) +
+                               1);
         }
     });
     if (weigh_targets_) particles_.weigh(log_likelihoods);
@@ -202,6 +202,21 @@ void TargetParticles::removeTarget(BlockId target) {
 void TargetParticles::removeLandmark(LandmarkId landmark) {
     particles_.forEachParticle(
         [&](int, LandmarksAndTargets& map, const PoseBelief&) { map.landmarks().remove(landmark); });
+}
+
+TargetParticles::FoundLandmark TargetParticles::findMostly(LandmarkId landmark) const {
+    const ParticleCloud& cloud = particles_.cloud();
+    FoundLandmark found{nullptr, Vector3::Zero()};
+    double weight = 0, heaviest = -1;
+    for (int i = 0; i < cloud.count(); ++i) {
+        const LandmarkFilter* here = particles_.map(i).find(landmark);
+        if (!here) continue;
+        weight += cloud.weights()[i];
+        if (cloud.weights()[i] <= heaviest) continue;
+        heaviest = cloud.weights()[i];
+        found = {here, cloud.pose(i).mean};
+    }
+    return weight > 0.5 ? found : FoundLandmark{nullptr, Vector3::Zero()};
 }
 
 std::size_t TargetParticles::indexOf(BlockId target) const {

@@ -16,6 +16,7 @@ struct TentativeSight {
     Stamp at;
     RangeBearingDetection detection;
     Pose2 sensor;
+    double unexplained;  ///< density [1/(m rad)] of what else it may have been
 };
 
 struct TentativeObject {

@@ -5,6 +5,7 @@
 // Electronic Systems 51(3), 2015, section IV.B): a detection is of each feature, of something new or false
 // with its probability over all pairings, and each feature becomes the mixture of what it would be with each
 // of them. doc/plugins/pmb_ufastslam.md.
+#include <algorithm>
 #include <vector>
 
 #include "slamot/core/association/AssociationProblem.h"
@@ -78,10 +79,9 @@ class BernoulliMap {
             double miss() const { return detection > least_missed ? detection : 0; }
             static constexpr double least_missed = 0.02;
         };
-        /// A detection that is of a feature with that probability, at the predicted pose.
+        /// A detection that is of a feature beyond doubt, at the predicted pose.
         struct Pair {
             int sight;
-            double probability;
             GaussianPoint point;
         };
         int view = -1;  ///< that what follows is of
@@ -93,7 +93,9 @@ class BernoulliMap {
         std::vector<Pair> pairs;
         std::vector<FeatureMixture> mixtures;  ///< by near feature
         std::vector<RivalSight> rival_sights;
-        std::vector<Place> lost;
+        std::vector<Place> lost;  ///< to be removed at the end of the scan
+
+        bool isLost(Place place) const { return std::find(lost.begin(), lost.end(), place) != lost.end(); }
     };
 
     void renew(std::uint64_t owner) {

@@ -66,6 +66,7 @@ class LandmarkFilters {
         std::vector<int> near_of;          ///< by sight: what it is of, -1 none
         std::vector<PointSight> expected;  ///< by sight, at the predicted pose
         std::vector<bool> may_start;       ///< by sight
+        std::vector<LandmarkId> begun;     ///< by sight that may start: of what another sensor has just started
         std::vector<bool> paired;          ///< by view and near: a nameless sight of that view is of it
         /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of
         /// sights, with the movers' own numbers. A sight that is likelier one of theirs is left to them.
@@ -117,9 +118,10 @@ class LandmarkFilters {
                       Work& work) const;
     double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight, Stamp now,
                     Place place);
-    /// Whether a sight may be of what a sensor before it has just started; its place then.
-    bool startedByAnotherSensor(const Settings& settings, const ParticleScan& scan, Work& work, std::size_t s,
-                                Place& place) const;
+    double startNew(const Settings& settings, const ParticleScan& scan, Work& work,
+                    std::vector<SightRecord>& records);
+    /// Which sights of a view are of what the views before it have just started, one of each at most.
+    void pairWithBegun(const Settings& settings, const ParticleScan& scan, int view, Work& work) const;
     double missed(const Settings& settings, const ParticleScan& scan, Work& work);
     void start(const Settings& settings, const SensorPlace& sensor, const ScanSight& sight, Stamp now);
     void letGo(const Settings& settings, Stamp now, Work& work);

@@ -34,8 +34,8 @@ class LandmarksAndTargets {
     }
 
     /// A landmark as its sights show it from where this particle's path has them made; those it remembers, the present
-    /// scan's among them. Sights after the first of a NIS above `gate` were of something else. Adds the log of their
-    /// likelihood given the first.
+    /// scan's among them. Sights after the first of a NIS above `gate` were of something else. Adds the log of the
+    /// likelihood of all after the first.
     GaussianPoint pointOf(const Settings& settings, const std::vector<TentativeSight>& sights, double gate,
                           double& log_likelihood) const;
 

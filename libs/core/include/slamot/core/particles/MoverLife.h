@@ -15,7 +15,7 @@ namespace slamot {
 struct MoverBatch {
     const RangeBearingSet& seen;
     Stamp now;
-    std::multimap<BlockId, int> sights = {};       ///< by mover: its detections; several only of named ones
+    std::multimap<BlockId, int> sights = {};       ///< by mover: its detections, of a nameless one one of each sensor at most
     std::vector<BlockId> in_doubt = {};            ///< movers whose pairs are undecided
     std::vector<double> likelihood_ratio = {};     ///< by number of detection: P_D N(nu; 0, S) / c of its pair
     std::vector<int> unexplained = {};             ///< detections that nothing explains, ascending

@@ -36,8 +36,9 @@ struct TargetDetection {
     BlockId target;
     int detection;  ///< index in the batch
     TargetSight sight;
-    /// The mover is visible with that probability and detected with density detection_probability N(z), else the
-    /// detection came about with this density [1/(m rad)]. Named ones: 1, 1, and no matter.
+    bool named = true;  ///< it is the mover's beyond doubt
+    /// Else: the mover is visible with that probability and detected with density detection_probability N(z), or the
+    /// detection came about with this density [1/(m rad)].
     double visible = 1, detection_probability = 1, unexplained = 1;
 };
 
@@ -74,6 +75,14 @@ class TargetParticles {
     LandmarkId addLandmark(const std::vector<TentativeSight>& sights, double gate, LandmarkFilter landmark);
     void removeTarget(BlockId target);
     void removeLandmark(LandmarkId landmark);
+
+    /// What the heaviest of the particles that have a landmark makes of it; null where these have no more than half of
+    /// the weight.
+    struct FoundLandmark {
+        const LandmarkFilter* landmark;
+        Vector3 pose;
+    };
+    FoundLandmark findMostly(LandmarkId landmark) const;
 
     MergedTargets merged() const;
     TargetBelief target(BlockId target) const;
