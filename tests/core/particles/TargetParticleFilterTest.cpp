@@ -47,7 +47,7 @@ Estimates existing(Estimates all) {
     return all;
 }
 
-/// A filter whose robot stands at the origin and looks all around, 20 m far, every 0.2 s.
+/// A filter whose robot stands at the origin and looks all around, 20 m far, every 0.2 s, with some sensors.
 struct Standing {
     explicit Standing(const TargetParticleParameters& p) : filter(p, still(), 1) { filter.start({}, 1); }
 
@@ -56,10 +56,12 @@ struct Standing {
         out.model = RobotMotionModel::increment;
         return out;
     }
-    UpdateReport look(std::vector<RangeBearingDetection> detections) {
+    UpdateReport look(std::vector<RangeBearingDetection> detections, std::size_t sensors = 1) {
         pass();
-        DetectionSet set = detectionsAt(0.2 * step, std::move(detections));
-        std::get<RangeBearingSet>(set.measurements).sensors[0].max_range = 20;
+        DetectionSet set =
+            detectionsAt(0.2 * step, std::move(detections), std::vector<Pose2>(sensors, Pose2{}));
+        for (RangeBearingSensor& sensor : std::get<RangeBearingSet>(set.measurements).sensors)
+            sensor.max_range = 20;
         return filter.update(set);
     }
     void pass() {
@@ -227,8 +229,10 @@ TEST(TargetParticleFilterTest, WhereIdentitiesAreRequiredNamelessDetectionsAreNo
 struct StopAndGo {
     bool moved, stood, moved_on;
 
-    StopAndGo(int seed, double speed_again)
-        : robot(mixed()), random(static_cast<std::uint64_t>(seed), RandomPurpose::test) {
+    StopAndGo(int seed, double speed_again, int sensors)
+        : robot(mixed()),
+          sensor_count(sensors),
+          random(static_cast<std::uint64_t>(seed), RandomPurpose::test) {
         look(6, 1);
         moved = isMover();
         look(8, 0);
@@ -251,12 +255,13 @@ struct StopAndGo {
         for (int k = 0; k < std::lround(seconds / 0.2); ++k) {
             at.x() += 0.2 * speed;
             std::vector<RangeBearingDetection> scan;
-            for (const Vector2& point : {at, Vector2(6, 1), Vector2(-5, -4)}) {
-                scan.push_back(seen({}, point, unknown, -1));
-                scan.back().range += 0.1 * random.normal();
-                scan.back().bearing = wrapAngle(scan.back().bearing + 0.02 * random.normal());
-            }
-            robot.look(scan);
+            for (int sensor = 0; sensor < sensor_count; ++sensor)
+                for (const Vector2& point : {at, Vector2(6, 1), Vector2(-5, -4)}) {
+                    scan.push_back(seen({}, point, unknown, -1, {}, sensor));
+                    scan.back().range += 0.1 * random.normal();
+                    scan.back().bearing = wrapAngle(scan.back().bearing + 0.02 * random.normal());
+                }
+            robot.look(scan, static_cast<std::size_t>(sensor_count));
         }
     }
     template <class Estimate>
@@ -271,16 +276,22 @@ struct StopAndGo {
     }
 
     Standing robot;
+    int sensor_count;
     RandomStream random;
     Vector2 at{-4, 3};
 };
 
 TEST(TargetParticleFilterTest, WhatStopsBecomesALandmarkAndWhatStartsATrack) {
     constexpr int seeds = 20;
-    for (const double speed_again : {1.0, 0.4}) {
+    struct Case {
+        double speed_again;
+        int sensors;
+    };
+    for (const Case& each : {Case{1, 1}, Case{0.4, 1}, Case{1, 2}}) {
+        SCOPED_TRACE(each.sensors);
         int moved = 0, stood = 0, moved_on = 0;
         for (int seed = 0; seed < seeds; ++seed) {
-            const StopAndGo run(seed, speed_again);
+            const StopAndGo run(seed, each.speed_again, each.sensors);
             moved += run.moved;
             stood += run.stood;
             moved_on += run.moved_on;
