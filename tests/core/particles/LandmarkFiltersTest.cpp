@@ -60,7 +60,7 @@ TEST(LandmarkFiltersTest, ANameTwiceInABatchIsTwoSightsOneAfterTheOther) {
     particle.take(scanAt(0, {at(5)}));
     particle.take(scanAt(1, {at(5), at(5.3)}));
     // Of three equal sights in all: the mean, and a third of one's covariance.
-    const LandmarkFilter& landmark = particle.all().at(0);
+    const LandmarkFilter landmark = particle.all().at(0);
     EXPECT_TRUE(test::near(landmark.point.mean, Vector2(5.1, 0), 1e-14));
     EXPECT_TRUE(test::near(landmark.point.covariance, Matrix2(0.01 / 3 * Matrix2::Identity()), 1e-4));
     EXPECT_EQ(landmark.seen, 3);
