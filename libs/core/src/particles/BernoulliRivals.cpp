@@ -30,7 +30,10 @@ void BernoulliMap::findRivals(const Settings& settings, const AssociationProblem
             };
             const BernoulliFeature &older = features_.at(placeOf(oldest)),
                                    &younger = features_.at(placeOf(c));
-            if (younger.source.valid() || (younger.rival.valid() && find(younger.rival))) continue;
+            // Two neighbours that are two for sure leave the younger open to what else it may be.
+            const bool is_taken = younger.rival.valid() && find(younger.rival) &&
+                                  (younger.rival == older.id || younger.same > -settings.merge_odds);
+            if (younger.source.valid() || is_taken) continue;
             const LandmarkId rival = older.id;  // writing may move what is read
             BernoulliFeature& written = features_.write(placeOf(c));
             written.rival = rival;
@@ -52,7 +55,8 @@ void BernoulliMap::weighRivals(const Settings& settings, const Vector3& pose, co
                                     static_cast<int>(older - work.near.begin()), static_cast<int>(n), work);
         if (look == 0) continue;
         BernoulliFeature& younger = features_.write(work.near[n].place);
-        younger.same += std::clamp(look, -most_of_a_scan, most_of_a_scan);
+        younger.same = std::max(younger.same + std::clamp(look, -most_of_a_scan, most_of_a_scan),
+                                -settings.merge_odds);
         if (younger.same < settings.merge_odds) continue;
         merge(older->place, work.near[n].place);
         work.lost.push_back(work.near[n].place);

@@ -1,5 +1,6 @@
 #include "slamot/core/particles/ParticleCloud.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slamot {
@@ -63,7 +64,9 @@ std::vector<int> ParticleCloud::resample() {
     children.reserve(poses_.size());
     for (const int parent : parents) children.push_back(pose(parent));
     poses_ = std::move(children);
-    weights_.setEqual();
+    // Its map goes on to be what is told.
+    const auto heir = std::lower_bound(parents.begin(), parents.end() - 1, weights_.best());
+    weights_.setEqual(static_cast<int>(heir - parents.begin()));
     return parents;
 }
 

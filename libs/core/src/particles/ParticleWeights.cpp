@@ -30,7 +30,8 @@ ParticleWeights::ParticleWeights(int count)
     setEqual();
 }
 
-void ParticleWeights::setEqual() {
+void ParticleWeights::setEqual(int best) {
+    best_ = best;
     std::fill(log_weights_.begin(), log_weights_.end(), -std::log(static_cast<double>(count())));
     std::fill(weights_.begin(), weights_.end(), 1.0 / count());
 }
@@ -53,16 +54,13 @@ void ParticleWeights::normalise() {
     const double log_sum = std::log(sum);
     for (double& w : weights_) w /= sum;
     for (double& w : log_weights_) w -= log_sum;
+    best_ = static_cast<int>(std::max_element(weights_.begin(), weights_.end()) - weights_.begin());
 }
 
 double ParticleWeights::effectiveCount() const {
     double squares = 0;
     for (const double w : weights_) squares += w * w;
     return 1 / squares;
-}
-
-int ParticleWeights::best() const {
-    return static_cast<int>(std::max_element(weights_.begin(), weights_.end()) - weights_.begin());
 }
 
 std::vector<int> ParticleWeights::resampled(Resampling method, RandomStream& random) const {

@@ -16,7 +16,8 @@ PhdMap::Seen* holderOf(const PhdGroup& group, PhdMap::Work& work) {
     return nullptr;
 }
 
-/// A sight of the view whose number is still free, which is given away now; null: there is none.
+/// A sight of the view that has a part in the group and whose number is still free, which is given away now;
+/// null: there is none.
 const PhdSight* numberFor(const PhdGroup& group, int view, PhdMap::Work& work) {
     const auto take = [&](int s) -> const PhdSight* {
         if (s < 0 || work.scan.sights[static_cast<std::size_t>(s)].view != view) return nullptr;
@@ -25,8 +26,6 @@ const PhdSight* numberFor(const PhdGroup& group, int view, PhdMap::Work& work) {
     };
     for (int k = group.first; k < group.last; ++k)
         if (const PhdSight* own = take(work.member(k).sight)) return own;
-    for (int s = 0; s < static_cast<int>(work.shares.size()); ++s)
-        if (const PhdSight* any = take(s)) return any;
     return nullptr;
 }
 
@@ -44,9 +43,8 @@ void correctAgain(const PhdMap::Settings& settings, const Vector3& pose, const P
 }  // namespace
 
 /// A group goes on in the place, and under the number, of its heaviest member whose place is still free.
-/// Splits that find none take the number of a detection that starts nothing else, one of their own if there
-/// is one: they too are what else it may have been of. Where no number is left either they join what has
-/// their heaviest member's place.
+/// Splits that find none take the number of a detection of theirs that starts nothing else: they too are what
+/// else it may have been of. Where none is left either they join what has their heaviest member's place.
 void PhdMap::write(const Settings& settings, const Vector3& pose, int view, Work& work) {
     for (const PhdGroup& group : work.merged.groups) {
         const PhdTerm& heaviest = work.member(group.first);

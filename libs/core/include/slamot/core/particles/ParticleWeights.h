@@ -19,7 +19,8 @@ class ParticleWeights {
     int count() const { return static_cast<int>(log_weights_.size()); }
     /// Normalised since the last `normalise`.
     double operator[](int i) const { return weights_[static_cast<std::size_t>(i)]; }
-    void setEqual();
+    /// `best`: the one that goes on as the heaviest, since equal weights do not tell.
+    void setEqual(int best = 0);
 
     /// w_i <- w_i exp(log_factor_i), normalised. Factors that are not finite count as 0; if none is finite the
     /// weights stay as they were, which is said by false.
@@ -27,8 +28,8 @@ class ParticleWeights {
 
     /// 1 / sum w^2: between 1 and count().
     double effectiveCount() const;
-    /// The lowest number among the heaviest.
-    int best() const;
+    /// The lowest number among the heaviest; after setEqual the one named there.
+    int best() const { return best_; }
     /// The parent of each child, ascending.
     std::vector<int> resampled(Resampling method, RandomStream& random) const;
 
@@ -36,6 +37,7 @@ class ParticleWeights {
     void normalise();
 
     std::vector<double> log_weights_, weights_;
+    int best_ = 0;
 };
 
 /// One of those that stand for all, in files and pictures.
