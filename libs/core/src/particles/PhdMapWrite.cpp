@@ -16,8 +16,8 @@ PhdMap::Seen* holderOf(const PhdGroup& group, PhdMap::Work& work) {
     return nullptr;
 }
 
-/// A sight of the view that has a part in the group and whose number is still free, which is given away now;
-/// null: there is none.
+/// A sight of the view whose number is still free, which is given away now: one that has a part in the group,
+/// else one that may be of the component its heaviest member came from. Null: there is none.
 const PhdSight* numberFor(const PhdGroup& group, int view, PhdMap::Work& work) {
     const auto take = [&](int s) -> const PhdSight* {
         if (s < 0 || work.scan.sights[static_cast<std::size_t>(s)].view != view) return nullptr;
@@ -26,6 +26,10 @@ const PhdSight* numberFor(const PhdGroup& group, int view, PhdMap::Work& work) {
     };
     for (int k = group.first; k < group.last; ++k)
         if (const PhdSight* own = take(work.member(k).sight)) return own;
+    const int component = work.member(group.first).component;
+    for (const PhdTerm& term : work.terms)
+        if (term.component == component)
+            if (const PhdSight* other = take(term.sight)) return other;
     return nullptr;
 }
 
@@ -44,7 +48,8 @@ void correctAgain(const PhdMap::Settings& settings, const Vector3& pose, const P
 
 /// A group goes on in the place, and under the number, of its heaviest member whose place is still free.
 /// Splits that find none take the number of a detection of theirs that starts nothing else: they too are what
-/// else it may have been of. Where none is left either they join what has their heaviest member's place.
+/// it may have been of, or missed by. Where none is left either they join what has their heaviest member's
+/// place.
 void PhdMap::write(const Settings& settings, const Vector3& pose, int view, Work& work) {
     for (const PhdGroup& group : work.merged.groups) {
         const PhdTerm& heaviest = work.member(group.first);
