@@ -50,6 +50,8 @@ void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, c
     work.may_start.assign(scan.sights.size(), false);
     if (scan.nameless) findNear(pose.mean.head<2>(), scan, work);
     pairNamed(scan, work);
+    work.sights.resize(scan.views.size() * work.near.size());
+    work.has_sight.assign(work.sights.size(), false);
     if (scan.nameless) pairNameless(settings, pose, scan, work);
 
     records.assign(scan.sights.size(), {});
@@ -60,18 +62,25 @@ void LandmarkFilters::pairUp(const Settings& settings, const PoseBelief& pose, c
         if (work.near_of[s] < 0) continue;
         const Work::Near& near = work.near[static_cast<std::size_t>(work.near_of[s])];
         PointSight& expected = work.expected[s];
-        expected = expectedAt(settings, pose, scan, work, sight, near.point);
+        expected = expectedAt(settings, pose, scan, sight.view, work.near_of[s], work);
         records[s].landmark = landmarks_.at(near.place).id;
         records[s].z = expected.z;
         records[s].S = expected.covariance + sight.R;
     }
 }
 
-PointSight LandmarkFilters::expectedAt(const Settings& settings, const PoseBelief& pose,
-                                       const ParticleScan& scan, const Work& work, const ScanSight& sight,
-                                       const GaussianPoint& point) {
-    return pose.isPoint() ? sightOf(point, work.placeOf(sight), settings.transform)
-                          : sightOf(point, pose, scan.sensorOf(sight), settings.transform);
+const PointSight& LandmarkFilters::expectedAt(const Settings& settings, const PoseBelief& pose,
+                                              const ParticleScan& scan, int view, int n, Work& work) {
+    const std::size_t pair = work.pairOf(view, n);
+    if (!work.has_sight[pair]) {
+        const auto v = static_cast<std::size_t>(view);
+        const GaussianPoint& point = work.near[static_cast<std::size_t>(n)].point;
+        work.sights[pair] = pose.isPoint()
+                                ? sightOf(point, work.places[v], settings.transform)
+                                : sightOf(point, pose, scan.views[v].sensor.pose, settings.transform);
+        work.has_sight[pair] = true;
+    }
+    return work.sights[pair];
 }
 
 void LandmarkFilters::findNear(const Vector2& position, const ParticleScan& scan, Work& work) const {
@@ -126,8 +135,8 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
             const Work::Near& near = work.near[static_cast<std::size_t>(n)];
             const double reach = bend * settings.separation_gate * (variance + near.point.covariance.trace());
             if (near.named_now || (near.point.mean - at).squaredNorm() > reach) continue;
-            const PointInnovation innovation(expectedAt(settings, pose, scan, work, sight, near.point),
-                                             sight.z, sight.R);
+            const PointInnovation innovation(expectedAt(settings, pose, scan, sight.view, n, work), sight.z,
+                                             sight.R);
             if (innovation.nis > settings.separation_gate) continue;
             Candidate pair{static_cast<int>(s), first + n, innovation.nis, -0.5 * innovation.nis};
             work.wide.push_back(pair);

@@ -66,12 +66,14 @@ class LandmarkFilters {
         std::vector<int> near_of;          ///< by sight: what it is of, -1 none
         std::vector<PointSight> expected;  ///< by sight, at the predicted pose
         std::vector<bool> may_start;       ///< by sight
-        std::vector<LandmarkId> begun;     ///< by sight that may start: of what another sensor has just started
-        std::vector<bool> paired;          ///< by view and near: a nameless sight of that view is of it
+        std::vector<LandmarkId> begun;  ///< by sight that may start: of what another sensor has just started
+        std::vector<bool> paired;       ///< by view and near: a nameless sight of that view is of it
         /// What else sights may be of, filled by who knows of movers before each pairUp, in the order of
         /// sights, with the movers' own numbers. A sight that is likelier one of theirs is left to them.
         std::vector<Candidate> of_movers;
         std::vector<Candidate> candidates, wide;
+        std::vector<PointSight> sights;  ///< by view and near, at the predicted pose, once looked for
+        std::vector<bool> has_sight;     ///< by view and near
         std::vector<Place> lost;
 
         std::size_t pairOf(int view, int n) const { return static_cast<std::size_t>(view) * near.size() + n; }
@@ -110,8 +112,8 @@ class LandmarkFilters {
     const SharedPages<LandmarkFilter>& features() const { return landmarks_; }
 
   private:
-    static PointSight expectedAt(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
-                                 const Work& work, const ScanSight& sight, const GaussianPoint& point);
+    static const PointSight& expectedAt(const Settings& settings, const PoseBelief& pose,
+                                        const ParticleScan& scan, int view, int n, Work& work);
     void findNear(const Vector2& position, const ParticleScan& scan, Work& work) const;
     void pairNamed(const ParticleScan& scan, Work& work) const;
     void pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
