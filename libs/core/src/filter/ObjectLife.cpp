@@ -18,11 +18,10 @@ bool isInDoubt(const AssociatedBatch& batch, BlockId block) {
     return std::find(batch.in_doubt.begin(), batch.in_doubt.end(), block) != batch.in_doubt.end();
 }
 
-bool surelySeenByAny(const GatheredView& view, BlockId block, ObjectKind kind, const RangeBearingSet& seen,
-                     Consistency consistency) {
-    return std::any_of(seen.sensors.begin(), seen.sensors.end(), [&](const RangeBearingSensor& sensor) {
-        return reports(sensor, kind) && sensor.max_range > 0 &&
-               surelyInView(sensor, expectedSight(view, block, sensor.pose, consistency).detection);
+bool surelySeen(const GatheredView& view, BlockId block, ObjectKind kind, const RangeBearingSet& seen,
+                Consistency consistency) {
+    return surelySeenByAny(seen, kind, [&](const RangeBearingSensor& sensor) {
+        return expectedSight(view, block, sensor.pose, consistency).detection;
     });
 }
 
@@ -90,7 +89,7 @@ bool ObjectLife::look(const GatheredView& view, ObjectLifeRecord& life, BlockId 
     life.looked = now;
     if (isInDoubt(batch, block)) return true;
     const auto sight = sights.find(block);
-    if (sight == sights.end() && !surelySeenByAny(view, block, life.seen_as, batch.seen, consistency_))
+    if (sight == sights.end() && !surelySeen(view, block, life.seen_as, batch.seen, consistency_))
         return true;  // out of view, or at its rim, nothing is held against it
     // What may move leaves the place where it stood.
     if (kind == ObjectKind::landmark && life.seen_as == ObjectKind::unknown)
@@ -157,7 +156,7 @@ void ObjectLife::compare(const GatheredView& view, ObjectCatalogue& objects, con
             }
             const auto in_view = [&](BlockId block) {
                 return sights.count(block) > 0 ||
-                       surelySeenByAny(view, block, ObjectKind::landmark, batch.seen, consistency_);
+                       surelySeen(view, block, ObjectKind::landmark, batch.seen, consistency_);
             };
             // Neighbours may be hidden together: a scan that shows neither says nothing of the two.
             const bool a_seen = sights.count(a) > 0, b_seen = sights.count(b) > 0;

@@ -11,8 +11,6 @@ namespace slamot {
 namespace {
 
 constexpr double least_per_scan = 1e-6;
-/// Objects that take longer to confirm lose their first sights.
-constexpr std::size_t most_sights = 20;
 
 }  // namespace
 

@@ -309,12 +309,9 @@ void BernoulliMap::start(const Settings& settings, const Vector3& pose, const Pa
 }
 
 void BernoulliMap::letGo(const Settings& settings, Stamp now, Work& work) {
-    // Of what was left behind nothing is missed: one page a scan is looked through for it.
-    if (++swept_ >= features_.pages()) swept_ = 0;
-    features_.forEachOfPage(swept_, [&](Place place, const BernoulliFeature& feature) {
-        if (!isConfirmed(settings, feature) &&
-            secondsBetween(feature.last_seen, now) > settings.parameters.max_unseen)
-            work.lost.push_back(place);
+    features_.sweep(work.lost, [&](const BernoulliFeature& feature) {
+        return !isConfirmed(settings, feature) &&
+               secondsBetween(feature.last_seen, now) > settings.parameters.max_unseen;
     });
     features_.remove(work.lost);
 }

@@ -16,10 +16,6 @@ constexpr double view_margin = 1.0;
 /// Never so hidden that a detection could not be its own.
 constexpr double least_visible = 1e-3;
 
-/// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked
-/// at: a gate in range and bearing is bent there.
-constexpr double bend = 4.0;
-
 /// Cheap: false for what lies clearly beside the field of view.
 bool mayBeInView(const SensorPlace& place, const RangeBearingSensor& sensor, const Vector2& facing,
                  const GaussianPoint& point) {
@@ -133,8 +129,9 @@ void LandmarkFilters::pairNameless(const Settings& settings, const PoseBelief& p
         const int first = sight.view * per_view;
         for (int n = 0; n < near_count; ++n) {
             const Work::Near& near = work.near[static_cast<std::size_t>(n)];
-            const double reach = bend * settings.separation_gate * (variance + near.point.covariance.trace());
-            if (near.named_now || (near.point.mean - at).squaredNorm() > reach) continue;
+            if (near.named_now || !mayPair(near.point.mean - at, variance + near.point.covariance.trace(),
+                                           settings.separation_gate))
+                continue;
             const PointInnovation innovation(expectedAt(settings, pose, scan, sight.view, n, work), sight.z,
                                              sight.R);
             if (innovation.nis > settings.separation_gate) continue;
@@ -332,12 +329,9 @@ void LandmarkFilters::remove(LandmarkId id) {
 }
 
 void LandmarkFilters::letGo(const Settings& settings, Stamp now, Work& work) {
-    // Of what was left behind nothing is missed: one page a scan is looked through for it.
-    if (++swept_ >= landmarks_.pages()) swept_ = 0;
-    landmarks_.forEachOfPage(swept_, [&](Place place, const LandmarkFilter& landmark) {
-        if (!landmark.existence.confirmed(settings.parameters.life) &&
-            secondsBetween(landmark.last_seen, now) > settings.parameters.max_unseen)
-            work.lost.push_back(place);
+    landmarks_.sweep(work.lost, [&](const LandmarkFilter& landmark) {
+        return !isConfirmed(settings, landmark) &&
+               secondsBetween(landmark.last_seen, now) > settings.parameters.max_unseen;
     });
     landmarks_.remove(work.lost);
 }

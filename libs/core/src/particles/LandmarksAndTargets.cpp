@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace slamot {
-namespace {
-
-/// Scans: objects that take longer to confirm lose their first sights.
-constexpr std::size_t most_poses = 20;
-
-}  // namespace
 
 void LandmarksAndTargets::pairUp(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                                  Work& work, std::vector<SightRecord>& records) const {
@@ -42,7 +36,8 @@ void LandmarksAndTargets::remember(const Vector3& pose, const ParticleScan& scan
     if (!scan.fixes_poses && std::none_of(scan.sights.begin(), scan.sights.end(),
                                           [](const ScanSight& s) { return s.may_be_mover; }))
         return;
-    if (path_.size() == most_poses) path_.erase(path_.begin());
+    // As many as an object keeps sights; sights that are older, since others were seen in between, are left out.
+    if (path_.size() == TentativeObject::most_sights) path_.erase(path_.begin());
     path_.push_back({scan.now, pose});
 }
 

@@ -7,23 +7,12 @@
 namespace slamot {
 namespace {
 
-/// Whether a sensor that reports `kind` could not but show it.
-bool surelySeenByAny(const MoverBatch& batch, ObjectKind kind, const MergedTargets& view, BlockId mover,
-                     Consistency consistency) {
-    const auto& sensors = batch.seen.sensors;
-    return std::any_of(sensors.begin(), sensors.end(), [&](const RangeBearingSensor& sensor) {
-        return reports(sensor, kind) &&
-               surelyInView(sensor, expectedSight(view, mover, sensor.pose, consistency).detection);
-    });
-}
-
-/// The same of a landmark, as one particle has it.
-bool surelySeenByAny(const MoverBatch& batch, const TargetParticles::FoundLandmark& found) {
-    const auto& sensors = batch.seen.sensors;
-    return std::any_of(sensors.begin(), sensors.end(), [&](const RangeBearingSensor& sensor) {
-        if (!reports(sensor, ObjectKind::unknown)) return false;
-        const PointSight sight = sightOf(found.landmark->point, placeOf(found.pose, sensor.pose), GaussianTransform::linear);
-        return surelyInView(sensor, {sight.z, sight.covariance});
+/// Whether a sensor could not but show what may move, as one particle has it.
+bool surelySeen(const RangeBearingSet& seen, const TargetParticles::FoundLandmark& found) {
+    return surelySeenByAny(seen, ObjectKind::unknown, [&](const RangeBearingSensor& sensor) {
+        const PointSight sight =
+            sightOf(found.landmark->point, placeOf(found.pose, sensor.pose), GaussianTransform::linear);
+        return ExpectedDetection{sight.z, sight.covariance};
     });
 }
 
@@ -57,7 +46,8 @@ void MoverLife::follow(TargetParticles& particles, ObjectCatalogue& tracks, cons
     for (const int d : unexplained) innovations[static_cast<std::size_t>(d)].outcome = Outcome::tentative;
     for (const ConfirmedObject& confirmed :
          watch_.confirmed(batch.seen, batch.now, unexplained, batch.may_be_new))
-        admit(particles, tracks, confirmed, batch.now, innovations[static_cast<std::size_t>(confirmed.detection)]);
+        admit(particles, tracks, confirmed, batch.now,
+              innovations[static_cast<std::size_t>(confirmed.detection)]);
 }
 
 double MoverLife::movingProbability(LandmarkId landmark) const {
@@ -81,8 +71,10 @@ void MoverLife::judge(const TargetParticles& particles, ObjectCatalogue& tracks,
         const auto sights = batch.sights.equal_range(track.block);
         for (auto sight = sights.first; sight != sights.second; ++sight)
             existence.detected(batch.likelihood_ratio[static_cast<std::size_t>(sight->second)]);
-        if (sights.first == sights.second &&
-            surelySeenByAny(batch, track.life->seen_as, view, track.block, consistency_))
+        const auto expectedBy = [&](const RangeBearingSensor& sensor) {
+            return expectedSight(view, track.block, sensor.pose, consistency_).detection;
+        };
+        if (sights.first == sights.second && surelySeenByAny(batch.seen, track.life->seen_as, expectedBy))
             existence.missed(parameters_.movers.detection_probability);
     }
 }
@@ -143,7 +135,8 @@ void MoverLife::becomeLandmark(TargetParticles& particles, ObjectCatalogue& trac
     landmark.first_seen = was.first_seen;
     const RangeBearingSensor& sensor = batch.seen.sensorOf(d);
     addLandmark(particles,
-                {{batch.now, batch.seen.detection(d), sensor.pose, unexplainedDensity(parameters_.landmarks, sensor)}},
+                {{batch.now, batch.seen.detection(d), sensor.pose,
+                  unexplainedDensity(parameters_.landmarks, sensor)}},
                 landmark, was.life->moving, batch.now);
 }
 
@@ -155,8 +148,8 @@ LandmarkId MoverLife::addLandmark(TargetParticles& particles, const std::vector<
     return id;
 }
 
-std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogue& tracks, const MoverBatch& batch,
-                                      std::vector<Innovation>& innovations) {
+std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogue& tracks,
+                                      const MoverBatch& batch, std::vector<Innovation>& innovations) {
     std::vector<LandmarkId> missed;
     std::vector<BlockId> watched_as;
     for (auto at = mixed_.begin(); at != mixed_.end();) {
@@ -168,7 +161,7 @@ std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogu
             at = mixed_.erase(at);
             continue;
         }
-        if (landmark.last_seen != batch.now && surelySeenByAny(batch, found)) {
+        if (landmark.last_seen != batch.now && surelySeen(batch.seen, found)) {
             missed.push_back(id);
             watched_as.push_back(landmark.watched_as);
         }
@@ -190,8 +183,8 @@ std::vector<int> MoverLife::findMoved(TargetParticles& particles, ObjectCatalogu
 // --- new objects
 // ---------------------------------------------------------------------------------------------------
 
-void MoverLife::admit(TargetParticles& particles, ObjectCatalogue& tracks, const ConfirmedObject& confirmed, Stamp now,
-                      Innovation& innovation) {
+void MoverLife::admit(TargetParticles& particles, ObjectCatalogue& tracks, const ConfirmedObject& confirmed,
+                      Stamp now, Innovation& innovation) {
     const TentativeObject& object = confirmed.object;
     const double moving = object.track.movingProbability();
     if (!confirmed.moving) {

@@ -11,10 +11,6 @@ namespace {
 /// [m] that a pose is drawn from its prediction as a rule. Farther off components are looked up again.
 constexpr double draw_margin = 1.0;
 
-/// How much farther apart than their covariances alone allow a pair may be on the plane and still be looked
-/// at: a gate in range and bearing is bent there.
-constexpr double bend = 4.0;
-
 /// The world in a sensor's frame.
 class SensorFrame {
   public:
@@ -31,7 +27,7 @@ class SensorFrame {
 /// plane.
 bool mayBelong(const PhdSight& sight, const Vector2& at, double weight, double variance) {
     const double widest = sight.widest + (weight > PhdSight::ordinary_weight ? 2 * std::log(weight) : 0);
-    return (at - sight.point).squaredNorm() <= bend * widest * variance;
+    return mayPair(at - sight.point, variance, widest);
 }
 
 /// P_D w q (eq. 25, 26).
@@ -257,14 +253,11 @@ void PhdMap::correct(const Settings& settings, const Vector3& pose, int view, Wo
     }
 }
 
-/// Of what was left behind nothing is missed: one page a scan is looked through for what is light there.
 void PhdMap::leaveBehind(const Settings& settings, const Vector2& position, Work& work) {
-    if (++swept_ >= features_.pages()) swept_ = 0;
     work.lost.clear();
-    features_.forEachOfPage(swept_, [&](Place place, const PhdFeature& feature) {
-        if (feature.weight < settings.parameters.leave_below &&
-            (feature.point.mean - position).squaredNorm() > work.scan.reach * work.scan.reach)
-            work.lost.push_back(place);
+    features_.sweep(work.lost, [&](const PhdFeature& feature) {
+        return feature.weight < settings.parameters.leave_below &&
+               (feature.point.mean - position).squaredNorm() > work.scan.reach * work.scan.reach;
     });
     features_.remove(work.lost);
 }

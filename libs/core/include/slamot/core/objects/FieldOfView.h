@@ -1,6 +1,8 @@
 #pragma once
 // What a sensor should have seen: only a look that would have shown an object speaks against it.
 // doc/maths/objects.md.
+#include <algorithm>
+
 #include "slamot/core/data/Detections.h"
 #include "slamot/core/estimation/RangeBearingUpdate.h"
 
@@ -16,5 +18,13 @@ double probabilityInView(const RangeBearingSensor& sensor, const ExpectedDetecti
 
 /// Whether the sensor reports objects of that kind: a sensor of unknown kind reports both.
 bool reports(const RangeBearingSensor& sensor, ObjectKind kind);
+
+/// Whether a sensor that reports `kind` could not but show an object; `expectedBy(sensor)`: its detection.
+template <class ExpectedBy>
+bool surelySeenByAny(const RangeBearingSet& seen, ObjectKind kind, const ExpectedBy& expectedBy) {
+    return std::any_of(seen.sensors.begin(), seen.sensors.end(), [&](const RangeBearingSensor& sensor) {
+        return reports(sensor, kind) && sensor.max_range > 0 && surelyInView(sensor, expectedBy(sensor));
+    });
+}
 
 }  // namespace slamot

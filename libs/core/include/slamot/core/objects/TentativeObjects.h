@@ -27,6 +27,8 @@ struct TentativeObject {
     Stamp first_seen, last_seen;
     std::vector<TentativeSight> sights;  ///< the latest, oldest first
 
+    /// Objects that take longer to confirm lose their first sights.
+    static constexpr std::size_t most_sights = 20;
     void keep(const TentativeSight& sight);
 };
 

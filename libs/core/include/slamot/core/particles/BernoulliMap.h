@@ -152,7 +152,6 @@ class BernoulliMap {
 
     SharedPages<BernoulliFeature> features_;
     UndetectedFeatures undetected_;
-    int swept_ = 0;  ///< page to be looked through next for what was never confirmed
 };
 
 }  // namespace slamot

@@ -129,7 +129,6 @@ class LandmarkFilters {
     void letGo(const Settings& settings, Stamp now, Work& work);
 
     SharedPages<LandmarkFilter> landmarks_;
-    int swept_ = 0;  ///< page to be looked through next for what was never confirmed
 };
 
 }  // namespace slamot

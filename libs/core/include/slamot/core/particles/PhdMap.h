@@ -120,7 +120,6 @@ class PhdMap {
     void leaveBehind(const Settings& settings, const Vector2& position, Work& work);
 
     SharedPages<PhdFeature> features_;
-    int swept_ = 0;  ///< page to be looked through next for what was left behind
 };
 
 }  // namespace slamot

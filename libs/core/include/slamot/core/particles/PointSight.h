@@ -21,9 +21,9 @@ struct GaussianPoint {
 /// z = [range bearing] of a point as a sensor is about to see it, without the detection's own noise.
 struct PointSight {
     Vector2 z;
-    Matrix2 covariance;                  ///< of z, from pose and point
-    Eigen::Matrix<double, 2, 3> A;       ///< d z / d xi of the pose, x = mean + factor xi: H_robot factor
-    Matrix2 cross;                       ///< covariance of point and z
+    Matrix2 covariance;             ///< of z, from pose and point
+    Eigen::Matrix<double, 2, 3> A;  ///< d z / d xi of the pose, x = mean + factor xi: H_robot factor
+    Matrix2 cross;                  ///< covariance of point and z
 };
 
 /// Pose and point as uncertain as they are.
@@ -31,6 +31,14 @@ PointSight sightOf(const GaussianPoint& point, const PoseBelief& pose, const Pos
                    GaussianTransform transform);
 /// From a known place: A is zero.
 PointSight sightOf(const GaussianPoint& point, const SensorPlace& sensor, GaussianTransform transform);
+
+/// Cheap, meant to err on the side of yes: whether a NIS up to `gate` is possible between what lies `apart`
+/// on the plane, with `variance` [m^2] of both. A gate in range and bearing is bent there, so it looks
+/// farther than the covariances alone allow.
+inline bool mayPair(const Vector2& apart, double variance, double gate) {
+    constexpr double bend = 4.0;
+    return apart.squaredNorm() <= bend * gate * variance;
+}
 
 /// A detection beside what was expected of it, with its noise R.
 struct PointInnovation {
@@ -48,7 +56,8 @@ struct PointInnovation {
 void update(GaussianPoint& point, const PointSight& sight, const PointInnovation& innovation);
 
 /// A point at first sight from a known place (paper 4, eq. 29 to 31).
-GaussianPoint firstSight(const SensorPlace& sensor, const Vector2& z, const Matrix2& R, GaussianTransform transform);
+GaussianPoint firstSight(const SensorPlace& sensor, const Vector2& z, const Matrix2& R,
+                         GaussianTransform transform);
 
 /// A pose belief that takes in one sight after the other, in the coordinates xi of the belief it began with.
 class RefinedPose {
@@ -67,8 +76,8 @@ class RefinedPose {
 
   private:
     PoseBelief prior_, belief_;
-    Vector3 shift_ = Vector3::Zero();         ///< xi ~ N(shift, spread spread^t) by now
-    Matrix3 spread_ = Matrix3::Identity();    ///< lower triangular
+    Vector3 shift_ = Vector3::Zero();       ///< xi ~ N(shift, spread spread^t) by now
+    Matrix3 spread_ = Matrix3::Identity();  ///< lower triangular
 };
 
 }  // namespace slamot

@@ -1,5 +1,6 @@
 #pragma once
-// The map of one particle, in pages that it shares with the particles it was copied with until one of them writes.
+// The map of one particle, in pages that it shares with the particles it was copied with until one of them
+// writes.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -12,11 +13,12 @@
 
 namespace slamot {
 
-/// Items ascend by `id` and have a `point.mean` [m]. Items that were made one after the other lie near one another
-/// in the world, so a page's bounding box tells most pages off that are out of reach.
+/// Items ascend by `id` and have a `point.mean` [m]. Items that were made one after the other lie near one
+/// another in the world, so a page's bounding box tells most pages off that are out of reach.
 ///
 /// Who owns a page is told by a number: particles that were copied get new ones (`renew`), so their pages are
-/// nobody's and are copied when one of them writes. Counting references would do the same but let threads race.
+/// nobody's and are copied when one of them writes. Counting references would do the same but let threads
+/// race.
 template <class Item>
 class SharedPages {
   public:
@@ -27,7 +29,9 @@ class SharedPages {
     struct Place {
         int page = 0, item = 0;
         friend bool operator==(Place a, Place b) { return a.page == b.page && a.item == b.item; }
-        friend bool operator<(Place a, Place b) { return a.page != b.page ? a.page < b.page : a.item < b.item; }
+        friend bool operator<(Place a, Place b) {
+            return a.page != b.page ? a.page < b.page : a.item < b.item;
+        }
     };
 
     /// Pages made from now on belong to `owner`, those made before to nobody.
@@ -48,7 +52,8 @@ class SharedPages {
 
     /// The item's id lies above all others'.
     void append(const Item& item) {
-        if (pages_.empty() || pages_.back()->size == page_capacity) pages_.push_back(std::make_shared<Page>(owner_));
+        if (pages_.empty() || pages_.back()->size == page_capacity)
+            pages_.push_back(std::make_shared<Page>(owner_));
         Page& page = own(pages_.size() - 1);
         page.items[static_cast<std::size_t>(page.size++)] = item;
         page.box.extend(item.point.mean);
@@ -61,14 +66,14 @@ class SharedPages {
         return locate(id, place) ? &at(place) : nullptr;
     }
     bool locate(LandmarkId id, Place& place) const {
-        auto next = std::upper_bound(pages_.begin(), pages_.end(), id, [](LandmarkId value, const auto& page) {
-            return value < page->items.front().id;
-        });
+        auto next = std::upper_bound(
+            pages_.begin(), pages_.end(), id,
+            [](LandmarkId value, const auto& page) { return value < page->items.front().id; });
         if (next == pages_.begin()) return false;
         const Page& page = **--next;
         const auto end = page.items.begin() + page.size;
-        const auto item =
-            std::lower_bound(page.items.begin(), end, id, [](const Item& a, LandmarkId b) { return a.id < b; });
+        const auto item = std::lower_bound(page.items.begin(), end, id,
+                                           [](const Item& a, LandmarkId b) { return a.id < b; });
         if (item == end || item->id != id) return false;
         place = {static_cast<int>(next - pages_.begin()), static_cast<int>(item - page.items.begin())};
         return true;
@@ -92,11 +97,15 @@ class SharedPages {
             for (int i = 0; i < page->size; ++i) visit(page->items[static_cast<std::size_t>(i)]);
     }
 
-    template <class Visit>
-    void forEachOfPage(int number, const Visit& visit) const {
-        if (number < 0 || number >= pages()) return;
-        const Page& page = *pages_[static_cast<std::size_t>(number)];
-        for (int i = 0; i < page.size; ++i) visit(Place{number, i}, page.items[static_cast<std::size_t>(i)]);
+    /// Of what was left behind nothing is missed: adds to `gone` what `isGone(item)` of the next page, so
+    /// that a few calls look through all of them.
+    template <class IsGone>
+    void sweep(std::vector<Place>& gone, const IsGone& isGone) {
+        if (++swept_ >= pages()) swept_ = 0;
+        if (pages_.empty()) return;
+        const Page& page = *pages_[static_cast<std::size_t>(swept_)];
+        for (int i = 0; i < page.size; ++i)
+            if (isGone(page.items[static_cast<std::size_t>(i)])) gone.push_back({swept_, i});
     }
 
     /// Takes out the items at `places`, in any order. Pages that get sparse are joined with their neighbours.
@@ -106,7 +115,8 @@ class SharedPages {
         for (std::size_t k = places.size(); k-- > 0;) removeOne(places[k]);
     }
 
-    /// Bytes of its pages, each counted in full by every particle that shares it; [0]: of those it owns alone.
+    /// Bytes of its pages, each counted in full by every particle that shares it; [0]: of those it owns
+    /// alone.
     std::array<std::size_t, 2> bytes() const {
         std::size_t owned = 0;
         for (const auto& page : pages_) owned += page->owner == owner_ ? sizeof(Page) : 0;
@@ -151,12 +161,14 @@ class SharedPages {
         std::copy_n(next.items.begin(), next.size, page.items.begin() + page.size);
         page.size += next.size;
         page.box.setEmpty();
-        for (int i = 0; i < page.size; ++i) page.box.extend(page.items[static_cast<std::size_t>(i)].point.mean);
+        for (int i = 0; i < page.size; ++i)
+            page.box.extend(page.items[static_cast<std::size_t>(i)].point.mean);
         pages_.erase(pages_.begin() + static_cast<std::ptrdiff_t>(number) + 1);
     }
 
     Owner owner_ = 0;
     int size_ = 0;
+    int swept_ = 0;  ///< the page swept last
     std::vector<std::shared_ptr<Page>> pages_;
 };
 
