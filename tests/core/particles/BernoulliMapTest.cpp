@@ -329,6 +329,22 @@ TEST(BernoulliMapTest, TheYoungerGoesIntoTheOlder) {
     }
 }
 
+// What was seen side by side for long may still turn out to be one.
+TEST(BernoulliMapTest, OddsOfBeingTwoAreBounded) {
+    Particle particle;
+    // Near enough to be taken for one by a detection between them, and always seen both.
+    for (int k = 0; k < 60; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5.45, 0})}));
+    ASSERT_EQ(confirmed(particle), 2);
+    const BernoulliFeature second = particle.all().at(1);
+    ASSERT_EQ(second.rival, particle.all().at(0).id);
+    EXPECT_EQ(second.same, -particle.settings.merge_odds);
+    // As after a loop: from now on there is one thing, between them.
+    int k = 60;
+    for (; confirmed(particle) == 2 && k < 100; ++k) particle.take(scanAt(k, {nameless({5.22, 0})}));
+    EXPECT_EQ(confirmed(particle), 1);
+    EXPECT_LT(k, 100);
+}
+
 // The second sensor does not meet what was merged in the first one's turn: its sights would count twice.
 TEST(BernoulliMapTest, WhatIsMergedIsMergedOnce) {
     Particle particle = withDouble(parameters());

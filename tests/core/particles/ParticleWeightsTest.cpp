@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "slamot/core/particles/ParticleCloud.h"
 #include "slamot/core/particles/ParticleWeights.h"
 
 namespace slamot {
@@ -92,6 +93,26 @@ INSTANTIATE_TEST_SUITE_P(Both, Resamplings, testing::Values(Resampling::systemat
                          [](const auto& each) {
                              return each.param == Resampling::systematic ? "systematic" : "residual";
                          });
+
+// Weights are equal after resampling; what is told goes on with the heaviest particle's history all the same.
+TEST_P(Resamplings, TheHeaviestsHeirIsTheBest) {
+    ParticleParameters parameters;
+    parameters.count = 10;
+    parameters.resampling = GetParam();
+    parameters.resample_below = 1;
+    for (int heaviest = 0; heaviest < 10; ++heaviest) {
+        ParticleCloud cloud(parameters, {});
+        cloud.start({}, 1);
+        std::vector<double> log_likelihoods(10, 0.0);
+        log_likelihoods.at(static_cast<std::size_t>(heaviest)) = 1;
+        ASSERT_TRUE(cloud.weigh(log_likelihoods));
+        const std::vector<int> parents = cloud.resample();
+        ASSERT_EQ(parents.size(), 10u);
+        const int best = cloud.weights().best();
+        EXPECT_EQ(cloud.weights()[best], cloud.weights()[0]);
+        EXPECT_EQ(parents.at(static_cast<std::size_t>(best)), heaviest);
+    }
+}
 
 TEST(ThinnedTest, KeepsByWeightAndWithoutChance) {
     const auto expectKept = [](const std::vector<double>& weights, int most,

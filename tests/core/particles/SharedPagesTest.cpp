@@ -74,6 +74,29 @@ TEST(SharedPagesTest, CopiesShareUntilOneWrites) {
     EXPECT_EQ(found, 1);
 }
 
+TEST(SharedPagesTest, SweepsAllPagesInTurn) {
+    Pages pages = row(100);
+    const auto isGone = [](const Item& item) { return item.point.mean.x() >= 40; };
+    for (int calls = pages.pages(); calls > 0; --calls) {
+        std::vector<Pages::Place> gone;
+        pages.sweep(gone, isGone);
+        for (const Pages::Place place : gone) EXPECT_TRUE(isGone(pages.at(place)));
+        EXPECT_LE(gone.size(), static_cast<std::size_t>(Pages::page_capacity));
+        pages.remove(gone);
+    }
+    // Pages move up when one of them goes, so that a round may miss some; two do not.
+    for (int calls = 2 * pages.pages(); calls > 0; --calls) {
+        std::vector<Pages::Place> gone;
+        pages.sweep(gone, isGone);
+        pages.remove(gone);
+    }
+    EXPECT_EQ(pages.size(), 40);
+    Pages none;
+    std::vector<Pages::Place> gone;
+    none.sweep(gone, isGone);
+    EXPECT_TRUE(gone.empty());
+}
+
 TEST(SharedPagesTest, AppendingToASharedPageLeavesTheOtherAsItWas) {
     Pages a = row(3);
     Pages b = a;
