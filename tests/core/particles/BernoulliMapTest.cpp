@@ -264,6 +264,14 @@ TEST(BernoulliMapTest, WhatIsNewIsLikelierWhereNobodyHasLooked) {
     }
 }
 
+TEST(BernoulliMapTest, NothingStartsWhereNothingNewIsExpected) {
+    BernoulliMapParameters p = parameters();
+    p.density = p.life.new_per_scan = 0;
+    Particle particle(p);
+    for (int k = 0; k < 3; ++k) particle.take(scanAt(k, {nameless({5, 0})}));
+    EXPECT_TRUE(particle.all().empty());
+}
+
 // --- one or two
 // ---------------------------------------------------------------------------------------------------
 
@@ -421,27 +429,20 @@ TEST(BernoulliMapTest, AScanCopiesNoPageThatIsOutOfReach) {
 // A detection half-way between two features is of each with a probability of half at most.
 TEST(BernoulliMapTest, PairsInDoubtDoNotRefineThePose) {
     const PoseBelief belief{Vector3::Zero(), 0.1 * Matrix3::Identity()};
-    for (const double pose_probability : {0.3, 0.9}) {
-        BernoulliMapParameters p = parameters();
-        p.pose_probability = pose_probability;
-        Particle particle(p);
-        for (int k = 0; k < 8; ++k) particle.take(scanAt(k, {nameless({5, 0}), nameless({5, 0.3})}));
-        const auto refined = [&](const Vector2& point) {
-            const ParticleScan scan = particle.scans.scan(scanAt(8, {nameless(point)}));
-            particle.map.pairUp(particle.settings, belief, scan, particle.work, particle.records);
-            RefinedPose out(belief);
-            particle.map.refine(particle.settings, scan, particle.work, out);
-            return !(out.belief().factor == belief.factor);
-        };
-        EXPECT_EQ(refined({5, 0.15}), pose_probability < 0.5);
+    const auto refines = [&](Particle& particle, const Vector2& point) {
+        const ParticleScan scan = particle.scans.scan(scanAt(8, {nameless(point)}));
+        particle.map.pairUp(particle.settings, belief, scan, particle.work, particle.records);
+        RefinedPose out(belief);
+        particle.map.refine(particle.settings, scan, particle.work, out);
+        return !(out.belief().factor == belief.factor);
+    };
+    Particle in_doubt, sure;
+    for (int k = 0; k < 8; ++k) {
+        in_doubt.take(scanAt(k, {nameless({5, 0}), nameless({5, 0.3})}));
+        sure.take(scanAt(k, {nameless({5, 0})}));
     }
-    Particle sure;
-    for (int k = 0; k < 8; ++k) sure.take(scanAt(k, {nameless({5, 0})}));
-    const ParticleScan scan = sure.scans.scan(scanAt(8, {nameless({5, 0})}));
-    sure.map.pairUp(sure.settings, belief, scan, sure.work, sure.records);
-    RefinedPose out(belief);
-    sure.map.refine(sure.settings, scan, sure.work, out);
-    EXPECT_FALSE(out.belief().factor == belief.factor);
+    EXPECT_FALSE(refines(in_doubt, {5, 0.15}));
+    EXPECT_TRUE(refines(sure, {5, 0}));
 }
 
 }  // namespace bernoulli_map_test

@@ -89,6 +89,38 @@ TEST(LandmarkFiltersTest, NamelessLandmarksWeighByExistence) {
     EXPECT_TRUE(particle.all().empty());
 }
 
+// One probability of detection for both: of a landmark as far off as the sensor reaches half of the looks
+// show it.
+TEST(LandmarkFiltersTest, DetectedOrMissedSumToOneAtTheRimToo) {
+    Particle particle;
+    const double range_at_rim = 20;
+    for (int k = 0; k < 4; ++k) particle.take(scanAt(k, {nameless({range_at_rim, 0})}));
+    const double visible = particle.all().at(0).existence.visibility();
+    const LandmarkFilter landmark = particle.all().at(0);
+    const double
+        p = 0.5 * 0.8,
+        c = std::exp(
+            particle.scans.scan(scanAt(4, {nameless({range_at_rim, 0})})).sights.at(0).log_unexplained);
+    const Matrix2 S =
+        landmark.point.covariance + Matrix2(Vector2(0.01, 0.0004 * range_at_rim * range_at_rim).asDiagonal());
+    const double N = range_at_rim / (2 * pi * std::sqrt(S.determinant()));
+    Particle other = particle;
+    EXPECT_NEAR(other.take(scanAt(4, {nameless({range_at_rim, 0})})),
+                std::log(c * (1 - visible * p) + visible * p * N), 1e-6);
+    EXPECT_NEAR(particle.take(scanAt(4, {})), std::log(1 - visible * p), 1e-6);
+}
+
+// Where no new landmarks are expected a detection without identity is clutter.
+TEST(LandmarkFiltersTest, NothingStartsWhereNothingNewIsExpected) {
+    LandmarkFilterParameters p = parameters();
+    p.life.new_per_scan = 0;
+    Particle particle(p);
+    for (int k = 0; k < 3; ++k) particle.take(scanAt(k, {nameless({5, 0})}));
+    EXPECT_TRUE(particle.all().empty());
+    particle.take(scanAt(3, {seen({}, {5, 0}, ObjectKind::landmark, 7)}));
+    EXPECT_EQ(particle.all().size(), 1u);
+}
+
 TEST(LandmarkFiltersTest, OnlyLooksThatWouldShowALandmarkSpeakAgainstIt) {
     Particle particle;
     for (int k = 0; k < 5; ++k) particle.take(scanAt(k, {nameless({5, 0})}));

@@ -158,6 +158,44 @@ TEST(TargetParticlesTest, WhatMayNotBeTheMoversWeighsLittle) {
     }
 }
 
+// A particle whose landmark took the detection has missed the mover, which weighs as much as in others.
+TEST(TargetParticlesTest, WhereALandmarkTookItTheMoverWasMissed) {
+    TargetParticles particles = particlesOf(40);
+    particles.start({}, 5);
+    const RangeBearingDetection first = seen({}, {5, 0}, unknown, -1);
+    particles.updateByLandmarks(scanAt(0, {first}), true);
+    particles.addLandmark({{Stamp::fromSeconds(0), first, {}, 0.01}}, 13.8, LandmarkFilter());
+    const BlockId target = particles.addTarget(moverAtPoint({7, 0.5}));
+    particles.predict(odometry(0, 1, {1, 0, 0.5}));
+    const RangeBearingDetection second = seen({1, 0, 0.5}, {5.4, 0}, unknown, -1);
+    particles.updateByLandmarks(scanAt(1, {second}), true);
+    TargetDetection detection = detectionOf(target, second);
+    detection.detection = 0;
+    detection.named = false;
+    detection.visible = 0.8;
+    detection.detection_probability = 0.9;
+    detection.unexplained = 0.01;
+    std::vector<double> weights;
+    double sum = 0;
+    int took = 0;
+    for (int i = 0; i < 40; ++i) {
+        TargetFilter filter = particles.particles().map(i).targets().at(0);
+        const double log_N =
+            filter.update(TargetSettings(), particles.particles().cloud().pose(i).mean, detection.sight);
+        const bool is_taken = particles.particles().records(i).at(0).landmark.valid();
+        took += is_taken;
+        const double factor = 1 - 0.72 + (is_taken ? 0 : 0.72 * std::exp(log_N) / 0.01);
+        weights.push_back(particles.particles().cloud().weights()[i] * factor);
+        sum += weights.back();
+    }
+    ASSERT_GT(took, 2);
+    ASSERT_LT(took, 38);
+    particles.updateByTargets({detection});
+    for (int i = 0; i < 40; ++i)
+        EXPECT_NEAR(particles.particles().cloud().weights()[i], weights[static_cast<std::size_t>(i)] / sum,
+                    1e-12);
+}
+
 // Sights of what turns out to be a landmark are taken in where the path has them made.
 TEST(TargetParticlesTest, ALandmarkOfUnknownKindStartsWhereThePathSawItFirst) {
     TargetParticles particles = particlesOf(1);
@@ -211,6 +249,7 @@ TEST(TargetParticlesTest, SightsOfANewLandmarkWeighParticles) {
     double sum = 0;
     int outside = 0;
     constexpr double gate = 1, other = 0.3;
+    const double p_d = LifeParameters().detection_probability;
     for (int i = 0; i < 30; ++i) {
         const SensorPlace here = placeOf(particles.particles().cloud().pose(i).mean, {});
         const GaussianPoint point =
@@ -218,7 +257,8 @@ TEST(TargetParticlesTest, SightsOfANewLandmarkWeighParticles) {
         const PointInnovation innovation(sightOf(point, here, GaussianTransform::linear), second.z(),
                                          second.covariance);
         outside += innovation.nis > gate;
-        factors.push_back(innovation.nis > gate ? other : std::exp(innovation.logLikelihood()));
+        const double own = innovation.nis > gate ? 0 : std::exp(innovation.logLikelihood());
+        factors.push_back(p_d * own + (1 - p_d) * other);
         sum += factors.back();
     }
     ASSERT_GT(outside, 2);

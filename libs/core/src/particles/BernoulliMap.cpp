@@ -7,6 +7,7 @@
 #include "slamot/core/association/AssociationMarginals.h"
 #include "slamot/core/association/ChiSquare.h"
 #include "slamot/core/association/DetectionModel.h"
+#include "slamot/core/objects/FieldOfView.h"
 
 namespace slamot {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 constexpr double least_pair = 1e-8;
 
 constexpr double least_clutter = 1e-6;
-
-/// What is seen beside the field of view is in it after all: a detection there may be of a feature.
-constexpr double least_in_view = 0.02;
 
 /// Log of how much likelier it is that a detection is of a feature than that it is unexplained and the
 /// feature missed.
@@ -180,9 +178,10 @@ double BernoulliMap::update(const Settings& settings, const Vector3& pose, bool 
         for (std::size_t s = 0; s < scan.sights.size(); ++s) {
             const ScanSight& sight = scan.sights[s];
             if (sight.view != view) continue;
-            // Less than what is let go is not started.
-            const bool starts = sight.named() ? !sight.known_as.valid()
-                                              : none[s] >= settings.parameters.life.remove_probability;
+            // Less than what is let go is not started, nor what is not expected.
+            const bool starts =
+                sight.named() ? !sight.known_as.valid()
+                              : none[s] >= settings.parameters.life.remove_probability && work.fresh[s] > 0;
             if (!starts) continue;
             start(settings, pose, scan, sight,
                   sight.named() ? 1 : none[s] * work.fresh[s] / work.unexplained[s]);
@@ -326,7 +325,7 @@ std::vector<ParameterTable> describe(BernoulliMapParameters& p, const std::strin
                 "known: they are ignored.")
         .real("gate_probability", p.gate_probability, "-", Interval::openProbability(),
               "Part of a landmark's detections that lie inside its gate.")
-        .real("pose_probability", p.pose_probability, "-", Interval::openProbability(),
+        .real("pose_probability", p.pose_probability, "-", Interval::between(0.5, 1),
               "A landmark refines the pose where its detection comes from it with this probability at least.")
         .integer(
             "state_budget", p.state_budget, Interval::between(1, 1000000),

@@ -55,8 +55,8 @@ void BernoulliMap::weighRivals(const Settings& settings, const Vector3& pose, co
                                     static_cast<int>(older - work.near.begin()), static_cast<int>(n), work);
         if (look == 0) continue;
         BernoulliFeature& younger = features_.write(work.near[n].place);
-        younger.same = std::max(younger.same + std::clamp(look, -most_of_a_scan, most_of_a_scan),
-                                -settings.merge_odds);
+        younger.same =
+            std::max(younger.same + std::clamp(look, -most_of_a_scan, most_of_a_scan), -settings.merge_odds);
         if (younger.same < settings.merge_odds) continue;
         merge(older->place, work.near[n].place);
         work.lost.push_back(work.near[n].place);
@@ -109,7 +109,7 @@ double BernoulliMap::logSame(const Settings& settings, const Vector3& pose, cons
 }
 
 void BernoulliMap::merge(Place older, Place younger) {
-    const BernoulliFeature& gone = features_.at(younger);
+    const BernoulliFeature gone = features_.at(younger);  // writing may move what is read
     BernoulliFeature& kept = features_.write(older);
     kept.point = fused(kept.point, gone.point);
     features_.moved(older);

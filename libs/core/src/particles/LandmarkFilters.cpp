@@ -13,9 +13,6 @@ namespace {
 /// [m] by which landmarks may lie off where they are looked for, beyond what a sensor reaches.
 constexpr double view_margin = 1.0;
 
-/// Never so hidden that a detection could not be its own.
-constexpr double least_visible = 1e-3;
-
 /// Cheap: false for what lies clearly beside the field of view.
 bool mayBeInView(const SensorPlace& place, const RangeBearingSensor& sensor, const Vector2& facing,
                  const GaussianPoint& point) {
@@ -202,7 +199,7 @@ double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bo
         if (drawn || landmark.last_seen == scan.now)
             work.expected[s] = sightOf(landmark.point, work.placeOf(sight), settings.transform);
         records[s].outcome = isConfirmed(settings, landmark) ? Outcome::updated : Outcome::tentative;
-        log_likelihood += detected(settings, work.expected[s], sight, scan.now, near.place);
+        log_likelihood += detected(settings, work.expected[s], sight, scan, near.place);
     }
     if (scan.nameless) log_likelihood += missed(settings, scan, work);
     log_likelihood += startNew(settings, scan, work, records);
@@ -211,24 +208,25 @@ double LandmarkFilters::update(const Settings& settings, const Vector3& pose, bo
 }
 
 double LandmarkFilters::detected(const Settings& settings, const PointSight& expected, const ScanSight& sight,
-                                 Stamp now, Place place) {
+                                 const ParticleScan& scan, Place place) {
     const LifeParameters& life = settings.parameters.life;
     LandmarkFilter& landmark = landmarks_.write(place);
     const PointInnovation innovation(expected, sight.z, sight.R);
     slamot::update(landmark.point, expected, innovation);
     landmarks_.moved(place);
     ++landmark.seen;
-    landmark.last_seen = now;
+    landmark.last_seen = scan.now;
     if (sight.named()) return innovation.logLikelihood();
 
     // The landmark is detected, or it is not and the detection is of something else.
-    landmark.existence.pass(secondsBetween(landmark.looked, now), life);
-    landmark.looked = now;
-    const double ratio =
-        life.detection_probability * std::exp(innovation.logLikelihood() - sight.log_unexplained);
+    landmark.existence.pass(secondsBetween(landmark.looked, scan.now), life);
+    landmark.looked = scan.now;
+    const double in_view = probabilityInView(scan.viewOf(sight).sensor, {expected.z, expected.covariance});
+    const double seen = life.detection_probability * std::max(in_view, least_in_view);
+    const double ratio = seen * std::exp(innovation.logLikelihood() - sight.log_unexplained);
     const double visible = landmark.existence.visibility();
     landmark.existence.detected(ratio);
-    return std::log(visible * ratio + 1 - visible * life.detection_probability);
+    return std::log(visible * ratio + 1 - visible * seen);
 }
 
 double LandmarkFilters::missed(const Settings& settings, const ParticleScan& scan, Work& work) {
@@ -267,18 +265,19 @@ double LandmarkFilters::startNew(const Settings& settings, const ParticleScan& s
                                  std::vector<SightRecord>& records) {
     double log_likelihood = 0;
     int view = -1;
+    const bool expects_new = Existence(settings.parameters.life).probability() > 0;
     work.begun.assign(scan.sights.size(), {});
     for (std::size_t s = 0; s < scan.sights.size(); ++s) {
         const ScanSight& sight = scan.sights[s];
         if (sight.view != view) pairWithBegun(settings, scan, view = sight.view, work);
-        if (!work.may_start[s]) continue;
+        if (!work.may_start[s] || !(sight.named() || expects_new)) continue;
         records[s].outcome = sight.named() ? Outcome::initiated : Outcome::tentative;
         records[s].landmark = work.begun[s].valid() ? work.begun[s] : sight.birth;
         Place place;
         if (work.begun[s].valid() && landmarks_.locate(work.begun[s], place)) {
             const PointSight expected =
                 sightOf(landmarks_.at(place).point, work.placeOf(sight), settings.transform);
-            log_likelihood += detected(settings, expected, sight, scan.now, place);
+            log_likelihood += detected(settings, expected, sight, scan, place);
         } else {
             start(settings, work.placeOf(sight), sight, scan.now);
         }

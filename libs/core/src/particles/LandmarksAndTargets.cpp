@@ -24,9 +24,13 @@ void LandmarksAndTargets::findSightsOfMovers(const Settings& settings, const Pos
             if (innovation.nis > settings.landmarks.gate) continue;
             // Scores as the landmarks' method has them.
             Candidate pair{static_cast<int>(s), static_cast<int>(t), innovation.nis, -0.5 * innovation.nis};
-            if (settings.landmarks.parameters.association == ParticleAssociation::likelihood)
+            if (settings.landmarks.parameters.association == ParticleAssociation::likelihood) {
                 pair.log_likelihood =
                     innovation.logLikelihood() + std::log(settings.target_detection_probability);
+                if (pair.log_likelihood <= sight.log_unexplained) continue;
+                pair.log_likelihood +=
+                    std::log(std::max(scan.visible_movers[t], LandmarkFilters::least_visible));
+            }
             work.of_movers.push_back(pair);
         }
     }
@@ -36,7 +40,8 @@ void LandmarksAndTargets::remember(const Vector3& pose, const ParticleScan& scan
     if (!scan.fixes_poses && std::none_of(scan.sights.begin(), scan.sights.end(),
                                           [](const ScanSight& s) { return s.may_be_mover; }))
         return;
-    // As many as an object keeps sights; sights that are older, since others were seen in between, are left out.
+    // As many as an object keeps sights; sights that are older, since others were seen in between, are left
+    // out.
     if (path_.size() == TentativeObject::most_sights) path_.erase(path_.begin());
     path_.push_back({scan.now, pose});
 }
@@ -45,6 +50,7 @@ GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings,
                                            const std::vector<TentativeSight>& sights, double gate,
                                            double& log_likelihood) const {
     const GaussianTransform transform = settings.landmarks.transform;
+    const double detection_probability = settings.landmarks.parameters.life.detection_probability;
     GaussianPoint point;
     bool is_first = true;
     for (const TentativeSight& sight : sights) {
@@ -59,12 +65,13 @@ GaussianPoint LandmarksAndTargets::pointOf(const Settings& settings,
         }
         const PointSight expected = sightOf(point, place, transform);
         const PointInnovation innovation(expected, sight.detection.z(), sight.detection.covariance);
-        if (innovation.nis > gate) {
-            log_likelihood += std::log(sight.unexplained);
-            continue;
+        // Where the sight was of something else, the landmark was missed.
+        double likelihood = (1 - detection_probability) * sight.unexplained;
+        if (innovation.nis <= gate) {
+            slamot::update(point, expected, innovation);
+            likelihood += detection_probability * std::exp(innovation.logLikelihood());
         }
-        slamot::update(point, expected, innovation);
-        log_likelihood += innovation.logLikelihood();
+        log_likelihood += std::log(likelihood);
     }
     return point;
 }

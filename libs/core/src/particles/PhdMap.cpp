@@ -65,7 +65,8 @@ void weighPairs(const PhdMap::Settings& settings, const PoseBelief& pose, int vi
     }
 }
 
-/// Only pairs with a responsibility above 1/2 are left, and of each landmark's the one with the largest.
+/// Only pairs with a responsibility above 1/2 are left, and of each landmark's with one sensor the one with
+/// the largest.
 void decidePairs(PhdMap::Work& work) {
     for (std::size_t s = 0; s < work.pairs.size(); ++s) {
         PhdMap::Pair& pair = work.pairs[s];
@@ -73,7 +74,7 @@ void decidePairs(PhdMap::Work& work) {
         if (pair.responsibility <= 0.5) pair.near = -1;
         for (std::size_t other = 0; other < s && pair.near >= 0; ++other) {
             PhdMap::Pair& rival = work.pairs[other];
-            if (rival.near == pair.near)
+            if (rival.near == pair.near && work.scan.sights[other].view == work.scan.sights[s].view)
                 (rival.responsibility < pair.responsibility ? rival : pair).near = -1;
         }
     }

@@ -57,7 +57,10 @@ UpdateReport TargetParticleFilter::update(const DetectionSet& set) {
     const bool movers = has([](const RangeBearingDetection& d) { return d.kind != ObjectKind::landmark; });
     const bool nameless = has([this](const RangeBearingDetection& d) { return isAssociated(d); });
 
-    UpdateReport report = particles_.updateByLandmarks(set, movers);
+    std::map<BlockId, double> visible;
+    for (const TrackRecord& track : tracks_.tracks())
+        visible[track.block] = visiblePart(lifeNow(track, set.stamp));
+    UpdateReport report = particles_.updateByLandmarks(set, movers, visible);
     MoverBatch batch{seen, set.stamp};
     if (movers) updateByMovers(batch, report.innovations);
     particles_.resample();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 namespace slamot {
@@ -109,9 +108,14 @@ void TargetParticles::predict(const OdometryIncrement& odometry) {
     });
 }
 
-UpdateReport TargetParticles::updateByLandmarks(const DetectionSet& set, bool fixes_poses) {
+UpdateReport TargetParticles::updateByLandmarks(const DetectionSet& set, bool fixes_poses,
+                                                const std::map<BlockId, double>& visible) {
     scan_ = particles_.scans().scan(set);
     scan_.fixes_poses = fixes_poses;
+    for (const BlockId target : targets_) {
+        const auto known = visible.find(target);
+        scan_.visible_movers.push_back(known == visible.end() ? 1 : known->second);
+    }
     return particles_.look(scan_, set.rangeBearing());
 }
 
@@ -153,7 +157,11 @@ void TargetParticles::updateByTargets(const std::vector<TargetDetection>& detect
     particles_.forEachParticle([&](int i, LandmarksAndTargets& map, const PoseBelief& pose) {
         for (std::size_t k = 0; k < detections.size(); ++k) {
             const TargetDetection& d = detections[k];
-            if (landmarkTook(i, d.detection)) continue;  // a detection has one source
+            if (landmarkTook(i, d.detection)) {  // a detection has one source: the mover was missed
+                log_likelihoods[static_cast<std::size_t>(i)] +=
+                    std::log1p(-d.detection_probability * d.visible);
+                continue;
+            }
             const double log_N = map.targets()[targets[k]].update(settings_.targets, pose.mean, d.sight);
             // The mover is detected, or it is not and this is something else (eq. 11: a mover's own factor
             // alone).

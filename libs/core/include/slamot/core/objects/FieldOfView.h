@@ -16,6 +16,10 @@ bool surelyInView(const RangeBearingSensor& sensor, const ExpectedDetection& exp
 /// a sensor whose max_range is not known.
 double probabilityInView(const RangeBearingSensor& sensor, const ExpectedDetection& expected);
 
+/// What is detected beside the field of view is in it after all: there a detection may be of an object with
+/// this probability at least.
+constexpr double least_in_view = 0.02;
+
 /// Whether the sensor reports objects of that kind: a sensor of unknown kind reports both.
 bool reports(const RangeBearingSensor& sensor, ObjectKind kind);
 

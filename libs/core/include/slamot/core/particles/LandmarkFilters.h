@@ -47,6 +47,8 @@ struct LandmarkFilter {
 class LandmarkFilters {
   public:
     using Place = SharedPages<LandmarkFilter>::Place;
+    /// Nothing is so hidden that a detection could not be its own.
+    static constexpr double least_visible = 1e-3;
     /// What all particles' maps have in common.
     struct Settings {
         Settings(const LandmarkFilterParameters& parameters, GaussianTransform transform);
@@ -118,8 +120,8 @@ class LandmarkFilters {
     void pairNamed(const ParticleScan& scan, Work& work) const;
     void pairNameless(const Settings& settings, const PoseBelief& pose, const ParticleScan& scan,
                       Work& work) const;
-    double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight, Stamp now,
-                    Place place);
+    double detected(const Settings& settings, const PointSight& expected, const ScanSight& sight,
+                    const ParticleScan& scan, Place place);
     double startNew(const Settings& settings, const ParticleScan& scan, Work& work,
                     std::vector<SightRecord>& records);
     /// Which sights of a view are of what the views before it have just started, one of each at most.

@@ -21,13 +21,14 @@ struct ScanSight {
     Vector2 local;    ///< where it points to, in the robot's frame [m]
     int view;         ///< index among the scan's views
     SourceId source;  ///< valid where the log says what it is
-    /// Named: the landmark's number, the same in all particles; none at its first sight, or where there is no name.
+    /// Named: the landmark's number, the same in all particles; none at its first sight, or where there is no
+    /// name.
     LandmarkId known_as;
     /// The number that what it starts has in every particle: one for each detection of a run, so that what
     /// particles started with the same detection has the same number in all of them.
     LandmarkId birth;
     double log_unexplained;  ///< log of the density [1/(m rad)] of detections that come from nothing known
-    bool may_be_mover;       ///< of unknown kind, in a filter that has movers: it starts no landmark by itself
+    bool may_be_mover;  ///< of unknown kind, in a filter that has movers: it starts no landmark by itself
 
     bool named() const { return source.valid(); }
 };
@@ -43,11 +44,14 @@ struct ParticleScan {
     Stamp now;
     std::vector<ScanSight> sights;  ///< view after view; their numbers at birth ascend
     std::vector<ScanView> views;
-    double reach = 0;       ///< [m], the largest of the views'
-    bool nameless = false;  ///< whether any view is
-    bool fixes_poses = false;  ///< poses are to be drawn even if nothing here is of the map
+    double reach = 0;                    ///< [m], the largest of the views'
+    bool nameless = false;               ///< whether any view is
+    bool fixes_poses = false;            ///< poses are to be drawn even if nothing here is of the map
+    std::vector<double> visible_movers;  ///< by mover: probability that it is there and not hidden
 
-    const ScanView& viewOf(const ScanSight& sight) const { return views[static_cast<std::size_t>(sight.view)]; }
+    const ScanView& viewOf(const ScanSight& sight) const {
+        return views[static_cast<std::size_t>(sight.view)];
+    }
     const Pose2& sensorOf(const ScanSight& sight) const { return viewOf(sight).sensor.pose; }
     /// The sensors in the world, by view.
     void placesFrom(const Vector3& pose, std::vector<SensorPlace>& places) const {
@@ -59,8 +63,8 @@ struct ParticleScan {
 /// Makes scans of batches, and remembers what that takes.
 class ScanMaker {
   public:
-    /// use_nameless: whether detections without identity are taken in at all; movers: whether one of unknown kind
-    /// may be of a mover.
+    /// use_nameless: whether detections without identity are taken in at all; movers: whether one of unknown
+    /// kind may be of a mover.
     ScanMaker(const LifeParameters& life, bool use_nameless, bool movers = false)
         : life_(life), use_nameless_(use_nameless), movers_(movers) {}
 
@@ -82,9 +86,9 @@ class ScanMaker {
 struct SightRecord {
     Outcome outcome = Outcome::ignored;
     LandmarkId landmark;
-    Vector2 z = Vector2::Zero();        ///< expected, at the predicted pose
-    Matrix2 S = Matrix2::Identity();    ///< innovation covariance there
-    bool may_be_new = false;            ///< nothing that the particle knows explains it, or could
+    Vector2 z = Vector2::Zero();      ///< expected, at the predicted pose
+    Matrix2 S = Matrix2::Identity();  ///< innovation covariance there
+    bool may_be_new = false;          ///< nothing that the particle knows explains it, or could
 };
 
 }  // namespace slamot

@@ -1,6 +1,7 @@
 #pragma once
-// Particles with landmarks and movers: what PF-SLAMOT believes, and what can be done to it. All particles have the
-// same movers, so one number stands for a mover in all of them.
+// Particles with landmarks and movers: what PF-SLAMOT believes, and what can be done to it. All particles
+// have the same movers, so one number stands for a mover in all of them.
+#include <map>
 #include <vector>
 
 #include "slamot/core/estimation/JointBank.h"
@@ -13,7 +14,8 @@ namespace slamot {
 /// First two moments of robot and movers over all particles, correlations included.
 class MergedTargets : public JointView {
   public:
-    MergedTargets(std::vector<BlockId> targets, const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance)
+    MergedTargets(std::vector<BlockId> targets, const Eigen::VectorXd& mean,
+                  const Eigen::MatrixXd& covariance)
         : targets_(std::move(targets)), mean_(mean), P_(covariance) {}
 
     BlockVector mean(BlockId block) const override;
@@ -37,17 +39,17 @@ struct TargetDetection {
     int detection;  ///< index in the batch
     TargetSight sight;
     bool named = true;  ///< it is the mover's beyond doubt
-    /// Else: the mover is visible with that probability and detected with density detection_probability N(z), or the
-    /// detection came about with this density [1/(m rad)].
+    /// Else: the mover is visible with that probability and detected with density detection_probability N(z),
+    /// or the detection came about with this density [1/(m rad)].
     double visible = 1, detection_probability = 1, unexplained = 1;
 };
 
 /// What particles say of a detection that may be of a landmark or of a mover.
 struct LandmarkVerdict {
-    int detection;          ///< index in the batch
-    LandmarkId landmark;    ///< that particles of most of the weight take it for; none otherwise
-    bool explained;         ///< most take it for some landmark
-    bool may_be_new;        ///< most know nothing that it could be of
+    int detection;        ///< index in the batch
+    LandmarkId landmark;  ///< that particles of most of the weight take it for; none otherwise
+    bool explained;       ///< most take it for some landmark
+    bool may_be_new;      ///< most know nothing that it could be of
 };
 
 class TargetParticles {
@@ -59,9 +61,11 @@ class TargetParticles {
     void start(const PoseGaussian& pose, std::uint64_t seed);
     void predict(const OdometryIncrement& odometry);
 
-    /// Landmarks of a batch: poses, maps and weights; the report tells of landmarks alone. fixes_poses: poses are
-    /// points afterwards, whatever there is in the batch.
-    UpdateReport updateByLandmarks(const DetectionSet& set, bool fixes_poses);
+    /// Landmarks of a batch: poses, maps and weights; the report tells of landmarks alone. fixes_poses: poses
+    /// are points afterwards, whatever there is in the batch. `visible`: probability that a mover is there
+    /// and not hidden, 1 where nothing is said.
+    UpdateReport updateByLandmarks(const DetectionSet& set, bool fixes_poses,
+                                   const std::map<BlockId, double>& visible = {});
     /// Of that batch's detections of unknown kind.
     std::vector<LandmarkVerdict> landmarkVerdicts() const;
     /// Then movers; afterwards it is time to resample.
@@ -70,14 +74,14 @@ class TargetParticles {
 
     /// Both in all particles at once; poses are points then. `target`: [p v a], robot's frame.
     BlockId addTarget(const RelativeGaussian& target);
-    /// Number and point are filled in, from sights of this and earlier scans (LandmarksAndTargets::pointOf), which
-    /// weigh particles now.
+    /// Number and point are filled in, from sights of this and earlier scans (LandmarksAndTargets::pointOf),
+    /// which weigh particles now.
     LandmarkId addLandmark(const std::vector<TentativeSight>& sights, double gate, LandmarkFilter landmark);
     void removeTarget(BlockId target);
     void removeLandmark(LandmarkId landmark);
 
-    /// What the heaviest of the particles that have a landmark makes of it; null where these have no more than half of
-    /// the weight.
+    /// What the heaviest of the particles that have a landmark makes of it; null where these have no more
+    /// than half of the weight.
     struct FoundLandmark {
         const LandmarkFilter* landmark;
         Vector3 pose;
