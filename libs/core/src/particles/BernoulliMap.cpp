@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "StandingSensor.h"
 #include "slamot/core/association/AssociationMarginals.h"
 #include "slamot/core/association/ChiSquare.h"
 #include "slamot/core/association/DetectionModel.h"
 #include "slamot/core/objects/FieldOfView.h"
+#include "slamot/core/particles/StandingSensor.h"
 
 namespace slamot {
 namespace {

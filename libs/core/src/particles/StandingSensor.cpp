@@ -1,4 +1,4 @@
-#include "StandingSensor.h"
+#include "slamot/core/particles/StandingSensor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,8 @@ PointSight StandingSensor::sightOf(const GaussianPoint& point) const {
 
 bool StandingSensor::covers(const Vector2& point) const {
     const Vector2 rel = point - position_;
-    const double squared = rel.squaredNorm(), nearest = view_.sensor.min_range, farthest = view_.sensor.max_range;
+    const double squared = rel.squaredNorm(), nearest = view_.sensor.min_range,
+                 farthest = view_.sensor.max_range;
     if (squared > farthest * farthest || squared < nearest * nearest) return false;
     return cos_half_limit_ <= -1 || axis_.dot(rel) >= cos_half_limit_ * std::sqrt(squared);
 }
@@ -75,7 +76,8 @@ double StandingSensor::inView(const PointSight& sight) const {
     spread(1, 1) += bearing_rim * bearing_rim;
     const double range = widest * std::sqrt(spread(0, 0)), bearing = widest * std::sqrt(spread(1, 1));
     const bool well_inside =
-        sight.z.x() + range <= sensor.max_range && (sensor.min_range <= 0 || sight.z.x() - range >= sensor.min_range) &&
+        sight.z.x() + range <= sensor.max_range &&
+        (sensor.min_range <= 0 || sight.z.x() - range >= sensor.min_range) &&
         (sensor.field_of_view >= 2 * pi || std::abs(sight.z.y()) + bearing <= 0.5 * sensor.field_of_view);
     if (well_inside) return 1;
     return probabilityInView(sensor, {sight.z, spread});

@@ -19,16 +19,16 @@ class StandingSensor {
     /// Whether a point lies within the sensor's limits.
     bool covers(const Vector2& point) const;
     Vector2 pointOf(const Vector2& z) const;
-    /// Probability that it lies within the sensor's limits, which are soft: poses of particles are not that exact. Not
-    /// below 2 %.
+    /// Probability that it lies within the sensor's limits, which are soft: poses of particles are not that
+    /// exact. Not below 2 %.
     double inView(const PointSight& sight) const;
 
   private:
     const ScanView& view_;
-    Vector2 position_, axis_;  ///< in the world; axis: where bearings are 0
-    double half_view_;         ///< [rad], half the field of view and what may be beyond
-    double cos_half_view_;     ///< -1 all round
-    double cos_half_limit_;    ///< of the field of view itself; -1 all round
+    Vector2 position_, axis_;                      ///< in the world; axis: where bearings are 0
+    double half_view_;                             ///< [rad], half the field of view and what may be beyond
+    double cos_half_view_;                         ///< -1 all round
+    double cos_half_limit_;                        ///< of the field of view itself; -1 all round
     Eigen::Matrix<double, 2, 3> position_factor_;  ///< d position / d xi of the pose
     Eigen::RowVector3d heading_factor_;            ///< d heading / d xi
 };
