@@ -183,7 +183,7 @@ class Replay {
   themeKey() {
     for (const part of this.element.querySelectorAll('.key [data-colour]')) {
       for (const name of ['fill', 'stroke']) {
-        if (part.hasAttribute(name)) part.setAttribute(name, theme.colourOf(part.dataset.colour));
+        if (part.hasAttribute(name) && part.getAttribute(name) !== 'none') part.setAttribute(name, theme.colourOf(part.dataset.colour));
       }
     }
   }

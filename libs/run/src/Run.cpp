@@ -16,7 +16,7 @@ namespace {
 
 /// Keeps the end of the run for the summary.
 class EndKeeper : public Sink {
-   public:
+  public:
     void step(const Step&) override {}
     void end(const RunEnd& end) override { kept = end; }
     RunEnd kept;
@@ -30,26 +30,30 @@ std::string dropsInWords(const DropTable& drops) {
 }
 
 /// A run that used nothing is an error that says what was found.
-void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std::string& log, const DropTable& drops) {
+void requireUsed(const Pipeline& pipeline, const Estimator& estimator, const std::string& log,
+                 const DropTable& drops) {
     const std::string detail = pipeline.firstUnusable().empty() ? "" : "; first: " + pipeline.firstUnusable();
     if (!pipeline.started())
-        throw LogError(fmt::format("{}: has no odometry to start with (CObservationOdometry, or actions of "
-                                   "action-frame logs); {}{}",
-                                   log, dropsInWords(drops), detail));
+        throw LogError(
+            fmt::format("{}: has no odometry to start with (CObservationOdometry, or actions of "
+                        "action-frame logs); {}{}",
+                        log, dropsInWords(drops), detail));
     const PipelineCounts& counts = pipeline.counts();
     if (estimator.usesDetections() && counts.detections == 0 && counts.clutter.withheld == 0)
-        throw LogError(fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
-                                   "[sensors], or lidar with a detector); {}{}",
-                                   log, estimator.name(), dropsInWords(drops), detail));
+        throw LogError(
+            fmt::format("{}: has no detection that {} can use (CObservationBearingRange with a role in "
+                        "[sensors], or lidar with a detector); {}{}",
+                        log, estimator.name(), dropsInWords(drops), detail));
     const Health health = estimator.estimate().health;
     if (estimator.usesDetections() && health.detections_ignored > 0 &&
         health.detections_used + health.detections_inflated + health.detections_rejected +
                 health.detections_tentative ==
             0)
-        throw LogError(fmt::format(
-            "{}: {} had no use for any of the {} detections: it goes by identities alone, but they are "
-            "hidden ([identities]), -1 in the log, or of sensors with role mixed",
-            log, estimator.name(), health.detections_ignored));
+        throw LogError(
+            fmt::format("{}: {} had no use for any of the {} detections: as it is set ([...association]) it "
+                        "goes by identities, but "
+                        "they are hidden ([identities]), -1 in the log, or of sensors with role mixed",
+                        log, estimator.name(), health.detections_ignored));
 }
 
 RunStatus statusOf(const LogSource& source, bool stopped) {
@@ -76,7 +80,8 @@ DropTable dropsOf(const LogSource& source, const Pipeline& pipeline) {
 }
 
 /// A label in the config that the log does not have is a slip that nothing else would show.
-std::vector<std::string> labelWarnings(const RunConfig& config, const Pipeline& pipeline, const DropTable& drops) {
+std::vector<std::string> labelWarnings(const RunConfig& config, const Pipeline& pipeline,
+                                       const DropTable& drops) {
     std::set<std::string> met = pipeline.labels();
     for (const auto& [key, count] : drops.rows()) met.insert(key.first);
     const std::vector<std::string> words(met.begin(), met.end());
@@ -105,7 +110,8 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     std::vector<Sink*> sinks{&recorder, &hash, &timer, &end, &sensors};
     sinks.insert(sinks.end(), input.sinks.begin(), input.sinks.end());
 
-    Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), input.truth, input.threads, sinks);
+    Pipeline pipeline(assembled.config, *assembled.estimator, assembled.detector.get(), input.truth,
+                      input.threads, sinks);
     RunResult result;
     DropTable drops;
     bool stopped = false;
@@ -125,7 +131,8 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     result.status = result.failure ? RunStatus::failed : statusOf(*input.source, stopped);
     if (!result.failure) result.end_message = input.source->endMessage();
     // Of a log that was not read to its end, what is missing may come later.
-    if (result.status == RunStatus::complete) result.warnings = labelWarnings(assembled.config, pipeline, drops);
+    if (result.status == RunStatus::complete)
+        result.warnings = labelWarnings(assembled.config, pipeline, drops);
     result.started = pipeline.started();
     result.estimate_hash = hash.hex();
     result.record = recorder.record();
@@ -150,7 +157,8 @@ RunResult runSource(const AssembledRun& assembled, const RunInput& input) {
     summary.warnings = result.warnings;
     summary.end = end.kept;
     if (result.metrics) summary.metrics = eval::toJson(*result.metrics);
-    summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
+    summary.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
     for (const Sink* sink : sinks) summary.wall_seconds -= sink->heldBack();
     summary.cpu_seconds = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     result.summary = makeSummary(summary);

@@ -47,6 +47,27 @@ TEST(ParticleWeightsTest, LikelihoodsOfAnySizeAndNone) {
     EXPECT_NEAR(weights[2], 1, 1e-12);
 }
 
+// Moments of particles of which one has next to no weight: nothing of it is left, and what is left is
+// definite.
+TEST(ParticleWeightsTest, NextToNoWeightIsNone) {
+    ParticleParameters parameters;
+    parameters.count = 2;
+    parameters.resample_below = 0;
+    for (double log_factor = -200; log_factor > -760; log_factor -= 7) {
+        ParticleCloud cloud(parameters, {});
+        cloud.start({}, 1);
+        cloud.place(0, {1, 2, 3});
+        cloud.place(1, {1.013, 1.994, 3.002});
+        ASSERT_TRUE(cloud.weigh({0, log_factor}));
+        const Matrix3 P = cloud.robot().covariance;
+        const Vector3 apart(0.013, -0.006, 0.002);
+        const double w = cloud.weights()[1];
+        EXPECT_EQ(w > 0, log_factor > -230) << log_factor;
+        EXPECT_TRUE(w == 0 ? P.isZero(0) : (P - w * apart * apart.transpose()).norm() <= 1e-9 * P.norm())
+            << log_factor;
+    }
+}
+
 std::vector<int> childrenOf(const std::vector<int>& parents, int count) {
     std::vector<int> out(static_cast<std::size_t>(count), 0);
     for (const int parent : parents) ++out.at(static_cast<std::size_t>(parent));

@@ -254,7 +254,7 @@ std::optional<std::string> nearestWord(const std::string& word, const std::vecto
     std::optional<std::string> best;
     std::size_t best_distance = 1 + std::max<std::size_t>(word.size() / 3, 1);
     for (const auto& candidate : candidates)
-        if (const std::size_t d = distance(candidate); d < best_distance) {
+        if (const std::size_t d = distance(candidate); d < best_distance && d < candidate.size()) {
             best = candidate;
             best_distance = d;
         }

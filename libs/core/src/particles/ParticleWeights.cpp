@@ -10,7 +10,12 @@ namespace {
 /// exp(-this) is the smallest number there is: weights stay finite and nothing is divided by 0.
 constexpr double log_of_nothing = 745;
 
-/// Children of weights that sum to `total`: child k goes to the weight that contains (k + offset) / count of it.
+/// Weights below count for nothing: moments of so little lose their digits, and with them what makes them
+/// definite.
+constexpr double least_weight = 1e-100;
+
+/// Children of weights that sum to `total`: child k goes to the weight that contains (k + offset) / count of
+/// it.
 void appendSystematic(const std::vector<double>& weights, double total, int count, double offset,
                       std::vector<int>& parents) {
     const double step = total / count;
@@ -50,9 +55,10 @@ bool ParticleWeights::multiply(const std::vector<double>& log_factors) {
 void ParticleWeights::normalise() {
     const double largest = *std::max_element(log_weights_.begin(), log_weights_.end());
     double sum = 0;
-    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] = std::exp(log_weights_[i] -= largest);
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+        sum += weights_[i] = std::exp(log_weights_[i] -= largest);
     const double log_sum = std::log(sum);
-    for (double& w : weights_) w /= sum;
+    for (double& w : weights_) w = w / sum < least_weight ? 0 : w / sum;
     for (double& w : log_weights_) w -= log_sum;
     best_ = static_cast<int>(std::max_element(weights_.begin(), weights_.end()) - weights_.begin());
 }
