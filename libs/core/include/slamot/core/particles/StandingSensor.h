@@ -20,7 +20,7 @@ class StandingSensor {
     bool covers(const Vector2& point) const;
     Vector2 pointOf(const Vector2& z) const;
     /// Probability that it lies within the sensor's limits, which are soft: poses of particles are not that
-    /// exact. Not below 2 %.
+    /// exact.
     double inView(const PointSight& sight) const;
 
   private:
