@@ -6,6 +6,7 @@
 // with its probability over all pairings, and each feature becomes the mixture of what it would be with each
 // of them. doc/plugins/pmb_ufastslam.md.
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "slamot/core/association/AssociationProblem.h"
@@ -24,6 +25,10 @@ namespace slamot {
 struct AssociationMarginals;
 
 struct BernoulliMapParameters {
+    /// Nothing hides landmarks: what may be hidden is long kept while it is missed, and after a loop that was
+    /// not closed that is the old map.
+    BernoulliMapParameters() { life.hidden_every = std::numeric_limits<double>::infinity(); }
+
     bool use_nameless = true;  ///< false: detections without identity are ignored
     double gate_probability = 1 - 1e-6;
     /// A feature refines the pose where its detection comes from it with this probability at least.
